@@ -1,7 +1,7 @@
 //! Modes and linear models of machines with unilateral contacts, against closed forms.
 
-use lagrangian::Machine;
 use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{At, Evaluation, Machine, System};
 use lagrangian_linear::model::{self, Request, about};
 use lagrangian_linear::search::{MOST_STEPS, Wanted};
 use lagrangian_linear::steady::{self, Options};
@@ -304,5 +304,107 @@ fn derivatives_of_accelerations_are_those_of_open_contacts() {
     let free = at("");
     for further in [contacts, &format!("{contacts} {derivatives}")] {
         crate::assert_close(&at(further), &free, further);
+    }
+}
+
+/// Accelerations with the forces of contacts as `evaluate` computes them, by the complementarity problem.
+fn accelerations(machine: &InterpretedMachine, q: &[f64], v: &[f64]) -> Vec<f64> {
+    let system = machine.prepare();
+    let (q, v, u) = (q.to_vec(), v.to_vec(), system.default_inputs());
+    let at = At {
+        t: 0.0,
+        q: &q,
+        v: &v,
+        u: &u,
+    };
+    Evaluation::of(&system, at).expect("a state").accelerations
+}
+
+/// The model at random states against differences of the accelerations that another code computes: a ball that slips in two directions on a
+/// floor that yields, and a disc that slips and resists rolling in a groove.
+#[test]
+fn models_with_pressed_contacts_are_those_of_the_forces_of_a_run() {
+    let ball = "machine Ball in space {
+        parameters { m: kg = 0.2, r: m = 0.1, mu: 1 = 0.3, K: N/m^(3/2) = 4e4, c: s/m = 0.3, g: m/s^2 = 9.81 }
+        coordinates { x: m, y: m, z: m = r, a: rad, b: rad, c1: rad }
+        frames { ball = ground.shift(x, y, z).turn(x, a).turn(y, b).turn(z, c1) }
+        bodies { ball { mass: m, inertia: (2/5*m*r^2, 2/5*m*r^2, 2/5*m*r^2), frame: ball } }
+        spheres { surface { on: ball, center: (0, 0, 0), radius: r } }
+        gravity (0, 0, -g);
+        contacts { cloth { sphere: surface, along: ground, compliance: hunt_crossley(K, c), friction: mu } }
+    }";
+    let disc = "machine Disc in plane {
+        parameters {
+            m: kg = 2, r: m = 0.1, R: m = 0.5, rho: m = 0.004, mu: 1 = 0.5, k: N/m = 3000, b: N*s/m = 5, g: m/s^2 = 9.81, l: m = 0.2,
+        }
+        coordinates { x: m, y: m, theta: rad, psi: rad }
+        bodies {
+            disc { mass: m, inertia: m*r^2/2, at: (x, y), angle: theta },
+            bob { mass: m/2, at: (x + l*sin(psi), y - l*cos(psi)) },
+        }
+        circles { rim { on: disc, center: (0, 0), radius: r }, bowl { on: ground, center: (0, 0), radius: R } }
+        gravity (0, -g);
+        contacts {
+            groove { circle: rim, inside: bowl, compliance: linear(k, b), friction: mu, rolling_resistance: rho },
+            lid { gap: 2*R - y, restitution: 0.5 },
+        }
+    }";
+    let mut next = crate::random();
+    for (name, text) in [("ball", ball), ("disc", disc)] {
+        let machine = of(name, text);
+        let n = machine.start().q.values.len();
+        for _ in 0..4 {
+            let mut q: Vec<f64> = (0..n).map(|_| 0.3 * next()).collect();
+            let mut v: Vec<f64> = (0..n).map(|_| next()).collect();
+            match name {
+                // Pressed by some millimetres, and slipping by its spin.
+                "ball" => {
+                    q[2] = 0.096 + 0.001 * next();
+                    v[3] = 30.0 + 5.0 * next();
+                }
+                _ => {
+                    let (angle, distance) = (0.8 * next(), 0.405 + 0.001 * next());
+                    (q[0], q[1]) = (distance * angle.sin(), -distance * angle.cos());
+                    v[2] = 30.0 + 5.0 * next();
+                }
+            }
+            let nothing = Request {
+                inputs: Vec::new(),
+                outputs: Vec::new(),
+            };
+            let model = about(&machine, (0.0, &q, &v), &nothing).expect("it slips");
+            let here = accelerations(&machine, &q, &v);
+            let size = here.iter().fold(1.0_f64, |size, a| size.max(a.abs()));
+            for (i, a) in here.iter().enumerate() {
+                let error = (model.drift[n + i] - a).abs();
+                assert!(
+                    error <= 1e4 * f64::EPSILON * size,
+                    "{name}: {a} is off by {error:e}"
+                );
+            }
+            let largest = model.a.amax();
+            for j in 0..2 * n {
+                // The error of a central difference is h²/6 f''' and ε f/h: some 1e-10 of derivatives that change within the depth, 4 mm.
+                let h = 1e-6;
+                let moved = |by: f64| {
+                    let (mut q, mut v) = (q.clone(), v.clone());
+                    if j < n {
+                        q[j] += by;
+                    } else {
+                        v[j - n] += by;
+                    }
+                    accelerations(&machine, &q, &v)
+                };
+                let (above, below) = (moved(h), moved(-h));
+                for i in 0..n {
+                    let slope = (above[i] - below[i]) / (2.0 * h);
+                    let error = (model.a[(n + i, j)] - slope).abs();
+                    assert!(
+                        error <= 1e-6 * largest,
+                        "{name}: {i} by {j}: {slope} is off by {error:e}"
+                    );
+                }
+            }
+        }
     }
 }
