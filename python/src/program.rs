@@ -562,6 +562,13 @@ impl Program {
         compile(py, text, Bases::Kept, Vec::new())
     }
 
+    /// Whether derivatives of its motions are continued across changes of unilateral contacts, or mapped between charts.
+    #[getter]
+    fn is_continued(&self) -> [bool; 2] {
+        let program = self.derived.machine.program();
+        [!program.unilateral.is_empty(), self.derived.has_charts]
+    }
+
     /// Names, units and docs of the parameters that follow from others.
     #[getter]
     fn derived_parameters(&self) -> Vec<Described> {
