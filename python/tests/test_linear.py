@@ -140,3 +140,26 @@ def test_a_ball_on_a_floor_that_yields_has_modes():
         rigid.modes()
     with pytest.raises(ValueError, match="the rigid contact `floor` is closed there"):
         rigid.linearize(start={"y": 0.1})
+
+
+def test_modes_about_the_centre_are_in_cartesian_coordinates():
+    m = lg.loads(
+        """machine Particle in plane {
+    parameters { m: kg = 2, kx: N/m = 8, ky: N/m = 18 }
+    coordinates { s: m = 1, phi: rad }
+    bodies { particle { mass: m, at: polar(s, phi) } }
+    gravity none;
+    springs { along { stiffness: kx, stretch: s*cos(phi) }, across { stiffness: ky, stretch: s*sin(phi) } }
+    charts { particle: polar(s, phi) | cartesian(x, y) }
+}"""
+    )
+    modes = m.modes()
+    assert modes.eigenvalues == pytest.approx([2j, 3j], rel=1e-12)
+    assert set(modes[0].shape) == {"x", "y"} and modes.equilibrium.q.names == ("x", "y")
+    model = m.linearize(start={"s": 0.0})
+    assert model.states == ("x", "y", "der(x)", "der(y)") and model.at.q.names == ("x", "y")
+    np.testing.assert_allclose(model.A[2:, :2], [[-4, 0], [0, -9]], atol=1e-12)
+    # Away from the centre they are those of the spec, and an output that names one is of the spec alone.
+    assert m.linearize().states == ("s", "phi", "der(s)", "der(phi)")
+    with pytest.raises(ValueError, match="singular"):
+        m.linearize(start={"s": 0.0}, outputs=["s"])

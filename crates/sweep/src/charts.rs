@@ -52,7 +52,7 @@ impl ChartedPoints {
     }
 
     /// The indices of the coordinates of each.
-    fn places(&self) -> Vec<[usize; 2]> {
+    pub fn places(&self) -> Vec<[usize; 2]> {
         self.0.iter().map(|point| point.places).collect()
     }
 
