@@ -390,7 +390,7 @@ def test_ctrl_c_ends_a_run(machines):
 
 
 PARTICLE = """machine Particle in plane {
-    parameters { m: kg = 2, kx: N/m = 8, ky: N/m = 18 }
+    parameters { m: kg = 2, kx: N/m = 8, ky: N/m = 18, _F: N = 3, _w: rad/s = 2 }
     coordinates { s: m = 1, phi: rad }
     inputs { pull: N = 0 }
     bodies { particle { mass: m, at: polar(s, phi) } }
@@ -417,7 +417,7 @@ def test_a_run_passes_the_centre_of_polar_coordinates():
     assert "x" not in run.columns and "height" in run.columns
     assert "<html" in run.report().html
     # An input by a formula, and an event.
-    run = m.simulate(3, inputs={"pull": "3*N*sin(t/s)"}, events={"low": "height"}, tolerance=1e-11)
+    run = m.simulate(3, inputs={"pull": "_F*sin(_w*t)"}, events={"low": "height"}, tolerance=1e-11)
     assert "pull" in run.columns
     # A Python function sees the coordinates of the spec, in which nothing passes the centre.
     with pytest.raises(lg.RunError):

@@ -1049,6 +1049,12 @@ fn searches_underline_an_assumption_that_ends_their_runs() {
         let output = lagrangian(&[call, &["--json"]].concat());
         assert_eq!(json(&output)["place"], place.as_str(), "{call:?}");
     }
+    let rows = Scratch::new("rows.csv", "");
+    let vary = ["--vary", "g=5,9.81", "--fresh", "--out", rows.path()];
+    lagrangian(&[&["sweep", fall.path(), "--until", "1"][..], &vary].concat());
+    let rows = std::fs::read_to_string(rows.path()).expect("rows");
+    let place = format!("({}:6:14)", fall.path());
+    assert_eq!(rows.matches(&place).count(), 2, "{rows}");
 }
 
 /// A value in a wrong unit is shown with the declaration that it does not fit.
