@@ -219,9 +219,13 @@ impl Sweep {
                 unit: unit.as_deref(),
             })
             .collect();
+        let of_plain = sources;
         let (mut sources, mut report) = (Sources::new(), Report::new());
         let with = match output_formulas.as_slice() {
-            [] => Some(plain),
+            [] => {
+                sources = of_plain;
+                Some(plain)
+            }
             asked => model(&plan, &constants, &dag, asked, &mut sources, &mut report),
         };
         let mut with = with;
