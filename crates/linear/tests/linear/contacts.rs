@@ -13,11 +13,11 @@ const OPTIONS: Options = Options {
     steady: "--steady",
 };
 
+/// The coordinates of an equilibrium and λ of each mode about it, or why there is none.
+type Found = Result<(Vec<f64>, Vec<(f64, f64)>), String>;
+
 /// λ of each mode about the equilibrium near the start, or why there is none.
-fn modes(
-    machine: &InterpretedMachine,
-    steady: &[bool],
-) -> Result<(Vec<f64>, Vec<(f64, f64)>), String> {
+fn modes(machine: &InterpretedMachine, steady: &[bool]) -> Found {
     let start = machine.start();
     let wanted = Wanted {
         solved: vec![false; steady.len()],
@@ -39,7 +39,7 @@ fn modes(
     ))
 }
 
-fn at_rest(text: &str) -> Result<(Vec<f64>, Vec<(f64, f64)>), String> {
+fn at_rest(text: &str) -> Found {
     let machine = of("contacts", text);
     let still = vec![false; machine.start().q.values.len()];
     modes(&machine, &still)
@@ -207,7 +207,7 @@ fn a_contact_that_slips_steadily_has_a_model() {
 
 #[test]
 fn what_has_no_linearization_names_the_contact() {
-    let check = |result: Result<(Vec<f64>, Vec<(f64, f64)>), String>, words: &str| {
+    let check = |result: Found, words: &str| {
         let said = result.expect_err(words);
         assert!(said.contains(words), "{said}");
     };
