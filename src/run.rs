@@ -17,6 +17,7 @@ mod start;
 mod stepping;
 
 use sampled::Sampling;
+use std::boxed::Box;
 use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
@@ -41,7 +42,7 @@ use crate::stepper::{BorrowedOrOwned, Stepper};
 use crate::tolerance::Tolerance;
 use crate::{Coordinates, Error, Inputs, Machine, State, System, Warning};
 use assumptions::Held;
-use choosing::{Beginning, CANDIDATES, Choosing};
+use choosing::{Ahead, Beginning, CANDIDATES, Choosing};
 use contact_search::ContactLooks;
 use contacts::PendingChange;
 use explained::ExplainedResidual;
@@ -103,8 +104,10 @@ pub(crate) struct Finished<M: Machine> {
 }
 
 /// A run that borrows from a [`Prepared`] one: with a law of any kind, with an energy balance or without.
+///
+/// In a box: a run is large, and moved several times, which would take as long as a step of a small machine.
 pub(crate) type RunOf<'r, 'a, 'l, M> =
-    Run<'r, 'a, M, Law<'l, <M as Machine>::System>, Option<EnergyIntegrals>>;
+    Box<Run<'r, 'a, M, Law<'l, <M as Machine>::System>, Option<EnergyIntegrals>>>;
 
 impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
     /// Checks the settings of a run and projects its start onto the constraints.
@@ -154,8 +157,12 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let ended = ended.and_then(|resumed| resumed.event);
         let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
         let at = (start.t, &q, &v);
-        let ahead = (until - start.t, inputs_stay);
-        let chosen = (settings.automatic).then(|| choosing::first(&system, at, &tolerance, ahead));
+        let ahead = Ahead {
+            left: until - start.t,
+            keeps_balance: settings.energy_balance,
+        };
+        let beginning = || choosing::first(&system, at, &tolerance, (ahead, inputs_stay));
+        let chosen = settings.automatic.then(beginning);
         if let Some(beginning) = chosen {
             settings.method = beginning.method;
         }
@@ -223,7 +230,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             });
         }
         let begun = |method| {
-            Stepper::begun(
+            let stepper = Stepper::begun(
                 BorrowedOrOwned::Borrowed(system),
                 model.observed_system.law.clone(),
                 quadratures.clone(),
@@ -231,7 +238,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 tolerance.clone(),
                 ((start.t, q.clone(), v.clone()), constraints.clone()),
                 until,
-            )
+            );
+            stepper.map(Box::new)
         };
         let mut begun_by = begun(settings.method);
         if begun_by.is_err() && chosen.is_some() && settings.method.kind == MethodKind::Series {
@@ -264,7 +272,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             }
             None => Choosing::none(),
         };
-        let mut run = Run {
+        let mut run = Box::new(Run {
             model,
             stepper,
             callbacks,
@@ -280,7 +288,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             shown: None,
             record: Record::begun(settings, start, sampled_inputs, piece),
             settings,
-        };
+        });
         run.begin_at(start, ended.as_deref())?;
         Ok(run)
     }
@@ -289,7 +297,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
 /// A run in progress.
 pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> {
     model: Model<'r, M::System, L>,
-    stepper: Stepper<'r, M::System, LawInPiece<'r, L, Inputs<M>>, A>,
+    /// In a box for the same reason.
+    stepper: Box<StepperOf<'r, M, L, A>>,
     settings: &'r Settings,
     callbacks: &'r mut Callbacks<'a, M>,
     start: f64,
@@ -361,6 +370,9 @@ struct Record<M: Machine> {
 }
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
+
+/// The stepper of a run.
+type StepperOf<'r, M, L, A> = Stepper<'r, <M as Machine>::System, LawInPiece<'r, L, Inputs<M>>, A>;
 
 impl<M: Machine> Record<M> {
     /// The records at the start of a run.

@@ -215,6 +215,14 @@ impl System for InterpretedSystem {
         self.series.cost(&self.program)
     }
 
+    fn powers_cost(&self) -> [f64; 3] {
+        if !self.has_powers() {
+            return [0.0; 3];
+        }
+        let costs = self.series.cost_of_powers(&self.program);
+        costs.unwrap_or_default()
+    }
+
     fn series_derivation(&self) -> Option<f64> {
         let may_have_one = self.program.contacts.is_empty()
             && self.program.unilateral.is_empty()

@@ -62,8 +62,8 @@ const STEPS_BETWEEN_LOOKS: [usize; 2] = [64, 1024];
 const COMFORTABLE: f64 = 0.75;
 
 /// A run that takes no more steps by series than this if all are as long as the first has no look at its start, which would take as long as some of
-/// them. If its steps turn out to be shorter, the first look comes after so many.
-const SHORT_RUN: usize = 32;
+/// them. If its steps turn out to be shorter, the first look comes after so many, as between two looks.
+const SHORT_RUN: usize = STEPS_BETWEEN_LOOKS[0];
 
 /// A series is derived on demand when the evaluations by `dop853` so far take at least this share of the time that the derivation takes. A run that then ends
 /// earlier than it is given, by an event, has lost at most so many times what it took before.
@@ -217,19 +217,28 @@ impl Beginning {
     }
 }
 
-/// The method to begin with at this state, at the signed distance `left` from the end.
+/// The rest of a run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ahead {
+    /// The signed distance from the end, in s.
+    pub left: f64,
+    /// Whether the energy balance is kept.
+    pub keeps_balance: bool,
+}
+
+/// The method to begin with at this state.
 pub(super) fn first<S: System>(
     system: &S,
     at: (f64, &S::Vector, &S::Vector),
     tolerance: &Tolerance<S::Vector>,
-    (left, inputs_stay): (f64, bool),
+    (ahead, inputs_stay): (Ahead, bool),
 ) -> Beginning {
     let explicit = Beginning::with(Method::DOP853, MethodReason::Explicit);
     if !inputs_stay {
         return explicit;
     }
     match system.series_derivation() {
-        None => by_costs(system, at, tolerance, left).unwrap_or(explicit),
+        None => by_costs(system, at, tolerance, ahead).unwrap_or(explicit),
         derivation => Beginning {
             derivation,
             ..explicit
@@ -237,12 +246,18 @@ pub(super) fn first<S: System>(
     }
 }
 
-/// The method that costs less from this state on, at the signed distance `left` from the end: by series or `dop853`. `None` if there is no series.
+/// The method that costs less from this state on: by series or `dop853`. `None` if there is no series.
+///
+/// Where the energy balance is kept, steps of both methods also integrate powers. `dop853` evaluates them at its stages, and they count in the cost of an
+/// evaluation; a step by series, which has no stages, computes states within it for that.
 fn by_costs<S: System>(
     system: &S,
     (t, q, v): (f64, &S::Vector, &S::Vector),
     tolerance: &Tolerance<S::Vector>,
-    left: f64,
+    Ahead {
+        left,
+        keeps_balance,
+    }: Ahead,
 ) -> Option<Beginning> {
     system.check_series().ok()?;
     let costs = system.series_cost()?;
@@ -253,15 +268,20 @@ fn by_costs<S: System>(
         && system.assumptions(t, q, v, &inputs).len() != 0
         && !system.assumptions_hold_within([t; 2], [q; 2], [v; 2]);
     let search = if is_searched { SEARCH } else { 0.0 };
-    let cost = costs[order] + search;
+    let [more, of_powers @ ..] = match keeps_balance {
+        true => system.powers_cost(),
+        false => [0.0; 3],
+    };
+    let cost = costs[order] + search + of_powers[order];
     let assumed = steps_for_one(finest);
-    let mut saved = EVALUATIONS * assumed;
+    let of_step = EVALUATIONS * (1.0 + more);
+    let mut saved = of_step * assumed;
     let mut evaluations = 0;
     if (saved / SPREAD..saved * SPREAD).contains(&cost) {
         let at = (t, q, v);
         if let Some(found) = compare(system, at, tolerance, (finest, left, assumed)) {
             let is_damped = usize::from(is_damped(system, (t, q)));
-            saved = EVALUATIONS * ACCUMULATION[is_damped][order] * found.steps;
+            saved = of_step * ACCUMULATION[is_damped][order] * found.steps;
             evaluations = found.evaluations;
         }
     }
@@ -356,7 +376,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         self.choosing.derivation = None;
         let at = (t, self.stepper.q(), self.stepper.v());
-        let beginning = by_costs(self.model.system, at, self.stepper.tolerance(), left);
+        let keeps_balance = self.stepper.quadratures().integrals().is_some();
+        let ahead = Ahead {
+            left,
+            keeps_balance,
+        };
+        let beginning = by_costs(self.model.system, at, self.stepper.tolerance(), ahead);
         let Some(beginning) = beginning else {
             return Ok(());
         };

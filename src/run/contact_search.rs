@@ -3,6 +3,7 @@
 //! Each step is looked at several times. Only where a look shows that something may have changed since the one before it, the instant is searched
 //! for on dense output.
 
+use std::boxed::Box;
 use std::vec;
 use std::vec::Vec;
 
@@ -82,7 +83,7 @@ pub(super) struct ContactLooks<V, M> {
     falls: Vec<f64>,
     /// Which contacts with two tangents have slipped faster than errors of rates since they began to.
     faster: Vec<bool>,
-    memory: Option<ContactMemory<V, M>>,
+    memory: Option<Box<ContactMemory<V, M>>>,
 }
 
 impl<V, M> Default for ContactLooks<V, M> {
@@ -195,8 +196,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let Some(touching) = self.stepper.touching() else {
             return Ok(None);
         };
-        let memory =
-            memory.get_or_insert_with(|| ContactMemory::new(touching, self.stepper.q_before()));
+        let memory = memory
+            .get_or_insert_with(|| Box::new(ContactMemory::new(touching, self.stepper.q_before())));
         before.theta = 0.0;
         let place = (
             self.stepper.t_before(),

@@ -326,6 +326,13 @@ impl Emitter<'_> {
         let [coarse, fine] = series.series().cost(accelerations.cost());
         let costs = Layout::Atom(format!("[{coarse:.1}, {fine:.1}]"));
         self.row("costs", "series_cost", &["p"], Some(costs));
+        if self.program.has_powers() != [false; 2] {
+            let powers = self.program.costs_of_powers();
+            let [of_evaluation, coarse, fine] =
+                (series.series()).cost_of_powers(accelerations.cost(), powers);
+            let costs = format!("[{of_evaluation:.1}, {coarse:.1}, {fine:.1}]");
+            self.row("more", "powers_cost", &["p"], Some(Layout::Atom(costs)));
+        }
     }
 
     /// Writes a method for each quantity of this machine that requires no solution of equations.
