@@ -4,6 +4,7 @@ use super::Stepper;
 use crate::attempt::{are_finite, not_finite};
 use crate::balance::Quadratures;
 use crate::control::{Control, shortest_step};
+use crate::math::larger;
 use crate::stages::Point;
 use crate::taylor::{
     GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect, size_of_rate,
@@ -94,11 +95,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             });
         }
         // The projection only removes truncation error and rounding.
-        model.project(now)?;
-        if self.takes_powers() {
-            self.leave_accelerations(h);
-        }
-        Ok(())
+        model.project(now).map(|_| ())
     }
 
     /// Whether powers are integrated along its steps.
@@ -106,14 +103,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.quadratures.integrals().is_some() && self.model.system.get().has_powers()
     }
 
-    /// Leaves the accelerations by the series of a step at its end in `stage`.
-    fn leave_accelerations(&mut self, h: f64) {
-        if let Some(taylor) = &self.taylor {
-            crate::taylor::accelerations(taylor.of_step(), h, &mut self.stage.0);
-        }
-    }
-
-    /// Evaluates the powers within a step of length `h`.
+    /// Evaluates the powers within a step of length `h`. The accelerations in `stage` stay there.
     pub(super) fn take_powers_along_series(&mut self, h: f64) {
         if !self.takes_powers() {
             return;
@@ -130,6 +120,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         } = self;
         let Some(taylor) = taylor else { return };
         let stages = method.tableau.stages;
+        // Those of the last stage are not known yet.
+        k[stages].clone_from(&stage.0);
         for (i, k) in k.iter_mut().enumerate().take(stages).skip(1) {
             let tau = method.tableau.c[i] * h;
             let at_stage = [&mut stage.0, &mut stage.1, &mut *k];
@@ -137,7 +129,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             let t = before.t + (before.t_low + tau);
             model.take_rates(quadratures, i, (t, &stage.0, &stage.1, k));
         }
-        self.leave_accelerations(h);
+        core::mem::swap(&mut stage.0, &mut k[stages]);
     }
 
     /// Evaluates the powers at the end of a step.
@@ -264,7 +256,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 #[inline(always)]
 fn size_of_rates<V: Vector>([before, now]: [&Point<V>; 2], i: usize) -> f64 {
     let size = |at: &Point<V>| size_of_rate(at.q.as_slice()[i], at.v.as_slice()[i]);
-    size(before).max(size(now))
+    larger(size(before), size(now))
 }
 
 /// The first coordinate with a coefficient that is not finite.
