@@ -7,6 +7,7 @@ mod contact_search;
 pub(crate) mod contacts;
 mod ending;
 mod explained;
+mod flights;
 mod guides;
 mod handing_over;
 pub(crate) mod in_lanes;
@@ -45,6 +46,7 @@ use choosing::{Beginning, CANDIDATES, Choosing};
 use contact_search::ContactLooks;
 use contacts::PendingChange;
 use explained::ExplainedResidual;
+use flights::{Flights, explicit_for};
 use handing_over::ContactActivity;
 use start::{check_parameters, check_start, project_start};
 
@@ -155,7 +157,11 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
         let at = (start.t, &q, &v);
         let ahead = (until - start.t, inputs_stay);
-        let chosen = (settings.automatic).then(|| choosing::first(&system, at, &tolerance, ahead));
+        let has_contacts = system.unilateral_contacts().len() != 0;
+        let chosen = (settings.automatic).then(|| match has_contacts {
+            true => Beginning::with_contacts(&system, inputs_stay),
+            false => choosing::first(&system, at, &tolerance, ahead),
+        });
         if let Some(beginning) = chosen {
             settings.method = beginning.method;
         }
@@ -233,7 +239,17 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 until,
             )
         };
-        let mut begun_by = begun(settings.method);
+        let has_contacts = system.unilateral_contacts().len() != 0;
+        let flies_by_series = has_contacts && settings.method.kind == MethodKind::Series;
+        let mut begun_by = if flies_by_series {
+            // Whether it begins with a flight is known once contacts are resolved.
+            let law = &model.observed_system.law;
+            let checked =
+                Stepper::<_, _, Option<EnergyIntegrals>>::check_series(system, law, start.t);
+            checked.and_then(|()| begun(explicit_for(settings.method)))
+        } else {
+            begun(settings.method)
+        };
         if begun_by.is_err() && chosen.is_some() && settings.method.kind == MethodKind::Series {
             *chosen = Some(Beginning::with(Method::DOP853, MethodReason::NoSeries));
             settings.method = Method::DOP853;
@@ -252,16 +268,17 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             stepper.count_evaluations(beginning.evaluations);
         }
         let activity = ContactActivity::new(
-            settings.hands_over && settings.method.kind == MethodKind::RungeKutta,
+            settings.hands_over
+                && matches!(
+                    settings.method.kind,
+                    MethodKind::RungeKutta | MethodKind::Series
+                ),
             (system.unilateral_contacts())
                 .map(|contact| contact.is_second_tangent)
                 .collect(),
         );
         let choosing = match *chosen {
-            Some(choice) => {
-                let may_change = system.unilateral_contacts().len() == 0;
-                Choosing::begun(start.t, choice, may_change)
-            }
+            Some(choice) => Choosing::begun(start.t, choice, !has_contacts),
             None => Choosing::none(),
         };
         let mut run = Run {
@@ -276,6 +293,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             activity,
             contact_looks: ContactLooks::default(),
             held: None,
+            flights: Flights::new(flies_by_series, chosen.filter(|_| has_contacts)),
             choosing,
             shown: None,
             record: Record::begun(settings, start, sampled_inputs, piece),
@@ -306,6 +324,8 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
     contact_looks: ContactLooks<VectorOf<M>, <M::System as System>::Matrix>,
     /// Bounds within which all assumptions hold.
     held: Held<VectorOf<M>>,
+    /// How it goes on while all unilateral contacts are open.
+    flights: Flights,
     /// The choice of the method, if the run makes it.
     choosing: Choosing,
     /// Memory of the state that is shown to the function that may stop the run.
@@ -370,7 +390,13 @@ impl<M: Machine> Record<M> {
         sampled_inputs: Option<Inputs<M>>,
         piece: Piece,
     ) -> Self {
-        let others: &[_] = if settings.automatic { &CANDIDATES } else { &[] };
+        let is_series = settings.method.kind == MethodKind::Series;
+        let others: &[_] = match settings.automatic {
+            true => &CANDIDATES,
+            // With unilateral contacts it is used while one is closed.
+            false if is_series && M::System::MAY_COLLIDE => &CANDIDATES[..1],
+            false => &[],
+        };
         let sampled_inputs = sampled_inputs.map(|inputs| (start.t, inputs));
         Self {
             sampled_inputs: sampled_inputs.into_iter().collect(),

@@ -202,9 +202,6 @@ impl System for InterpretedSystem {
     }
 
     fn check_series(&self) -> Result<(), &str> {
-        if !self.program.unilateral.is_empty() {
-            return Err("it has contacts that close and open");
-        }
         match &self.series.known().series {
             Ok(_) => Ok(()),
             Err(reason) => Err(reason),
@@ -217,7 +214,6 @@ impl System for InterpretedSystem {
 
     fn series_derivation(&self) -> Option<f64> {
         let may_have_one = self.program.contacts.is_empty()
-            && self.program.unilateral.is_empty()
             && self.program.constraints.iter().all(|of| of.holonomic);
         let evaluations = || match may_have_one {
             true => motion_series::derivation(&self.program),

@@ -247,8 +247,6 @@ pub enum NoSeries {
     Constraints,
     /// Contacts with friction.
     Friction,
-    /// Unilateral contacts.
-    Unilateral,
     /// Accelerations that do not occur linearly in the forces.
     NotLinear,
     /// More rows than allowed.
@@ -270,7 +268,6 @@ impl fmt::Display for NoSeries {
             NoSeries::Approximations => f.write_str("it has coordinates that are approximated"),
             NoSeries::Constraints => f.write_str("it has constraints of velocities"),
             NoSeries::Friction => f.write_str("it has contacts with friction"),
-            NoSeries::Unilateral => f.write_str("it has contacts that close and open"),
             NoSeries::NotLinear => f.write_str("its forces depend on accelerations"),
             NoSeries::TooLarge => write!(f, "its series has more than {MOST_ROWS} rows"),
             NoSeries::Unproved => {

@@ -152,7 +152,7 @@ impl Expansions {
         match &self.powers {
             Some(powers) if has(along) => {
                 for (i, [work, lost]) in powers.of_stages.iter().enumerate().take(stages).skip(1) {
-                    to.quadratures.take(i, work[lane], lost[lane]);
+                    to.take_powers(i, [work[lane], lost[lane]]);
                 }
             }
             _ => to.take_powers_along_series(h),
@@ -172,7 +172,7 @@ impl Expansions {
             match &self.powers {
                 Some(powers) if has(at_end) => {
                     let [work, lost] = powers.of_stages[stages];
-                    to.quadratures.take(stages, work[lane], lost[lane]);
+                    to.take_powers(stages, [work[lane], lost[lane]]);
                 }
                 _ => to.take_powers_at_end(),
             }

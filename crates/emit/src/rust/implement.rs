@@ -107,10 +107,7 @@ impl Emitter<'_> {
             || self.parts_of_gaps_read_prepared();
         self.writer.line(format!("absent [{}]", absent.join(" ")));
         self.writer.line(flag("intervals", rounds_prepared, "yes"));
-        if let Some(call) = self
-            .call_of_series()
-            .filter(|_| has_lanes && never_collides)
-        {
+        if let Some(call) = self.call_of_series().filter(|_| has_lanes) {
             let runtime = &self.options.runtime;
             let lists = self.lists_of_series(&format!("{runtime}::Lanes<{register}>"));
             self.writer.open("batch_series {");
