@@ -326,6 +326,7 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// Records the residuals at the end of a step before its projection, and the share of them that arose in the step itself.
+    #[inline(always)]
     fn record_residuals_of_step(&mut self, residuals: [f64; 2]) {
         self.chosen_residuals = residuals;
         for (level, roundoff) in self.scales.roundoff().into_iter().enumerate() {

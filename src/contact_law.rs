@@ -16,6 +16,7 @@ mod cone;
 pub(crate) mod lcp;
 #[cfg(feature = "std")]
 pub(crate) mod problem;
+mod revolution;
 pub(crate) mod shares;
 
 /// The margin by which the state of a contact holds, negative if it does not, and the round-off of that margin.

@@ -44,7 +44,8 @@ pub static RADAU_OF_HIGH_ORDER: [Method; 2] = [
 /// fastest method for smooth machines at fine tolerances.
 ///
 /// Its order is 12 or 20, depending on the tolerance. Dense output and events have the same order and cost no evaluation. A compiled
-/// machine has its series if its spec says `methods { taylor }`. Steps end at the end of the run, not at samples. It needs an allocator,
+/// machine has its series if its spec says `methods { taylor }`. While unilateral contacts of a machine are closed, a run goes on by
+/// [`Method::DOP853`]. Steps end at the end of the run, not at samples. It needs an allocator,
 /// hence the feature `std`, and inputs that keep their defaults.
 ///
 /// It is not a Runge–Kutta method, so it is not among [`METHODS`]; its [`Tableau`] holds the nodes and weights by which work and

@@ -7,6 +7,7 @@ mod contact_search;
 pub(crate) mod contacts;
 mod ending;
 mod explained;
+mod flights;
 mod guides;
 mod handing_over;
 pub(crate) mod in_lanes;
@@ -17,6 +18,7 @@ mod start;
 mod stepping;
 
 use sampled::Sampling;
+use std::boxed::Box;
 use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
@@ -41,10 +43,11 @@ use crate::stepper::{BorrowedOrOwned, Stepper};
 use crate::tolerance::Tolerance;
 use crate::{Coordinates, Error, Inputs, Machine, State, System, Warning};
 use assumptions::Held;
-use choosing::{Beginning, CANDIDATES, Choosing};
+use choosing::{Ahead, Beginning, CANDIDATES, Choosing};
 use contact_search::ContactLooks;
 use contacts::PendingChange;
 use explained::ExplainedResidual;
+use flights::{Flights, explicit_for};
 use handing_over::ContactActivity;
 use start::{check_parameters, check_start, project_start};
 
@@ -103,8 +106,10 @@ pub(crate) struct Finished<M: Machine> {
 }
 
 /// A run that borrows from a [`Prepared`] one: with a law of any kind, with an energy balance or without.
+///
+/// In a box: a run is large, and moved several times, which would take as long as a step of a small machine.
 pub(crate) type RunOf<'r, 'a, 'l, M> =
-    Run<'r, 'a, M, Law<'l, <M as Machine>::System>, Option<EnergyIntegrals>>;
+    Box<Run<'r, 'a, M, Law<'l, <M as Machine>::System>, Option<EnergyIntegrals>>>;
 
 impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
     /// Checks the settings of a run and projects its start onto the constraints.
@@ -154,8 +159,15 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let ended = ended.and_then(|resumed| resumed.event);
         let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
         let at = (start.t, &q, &v);
-        let ahead = (until - start.t, inputs_stay);
-        let chosen = (settings.automatic).then(|| choosing::first(&system, at, &tolerance, ahead));
+        let ahead = Ahead {
+            left: until - start.t,
+            keeps_balance: settings.energy_balance,
+        };
+        let has_contacts = system.unilateral_contacts().len() != 0;
+        let chosen = (settings.automatic).then(|| match has_contacts {
+            true => Beginning::with_contacts(&system, inputs_stay),
+            false => choosing::first(&system, at, &tolerance, (ahead, inputs_stay)),
+        });
         if let Some(beginning) = chosen {
             settings.method = beginning.method;
         }
@@ -223,7 +235,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             });
         }
         let begun = |method| {
-            Stepper::begun(
+            let stepper = Stepper::begun(
                 BorrowedOrOwned::Borrowed(system),
                 model.observed_system.law.clone(),
                 quadratures.clone(),
@@ -231,9 +243,20 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 tolerance.clone(),
                 ((start.t, q.clone(), v.clone()), constraints.clone()),
                 until,
-            )
+            );
+            stepper.map(Box::new)
         };
-        let mut begun_by = begun(settings.method);
+        let has_contacts = system.unilateral_contacts().len() != 0;
+        let flies_by_series = has_contacts && settings.method.kind == MethodKind::Series;
+        let mut begun_by = if flies_by_series {
+            // Whether it begins with a flight is known once contacts are resolved.
+            let law = &model.observed_system.law;
+            let checked =
+                Stepper::<_, _, Option<EnergyIntegrals>>::check_series(system, law, start.t);
+            checked.and_then(|()| begun(explicit_for(settings.method)))
+        } else {
+            begun(settings.method)
+        };
         if begun_by.is_err() && chosen.is_some() && settings.method.kind == MethodKind::Series {
             *chosen = Some(Beginning::with(Method::DOP853, MethodReason::NoSeries));
             settings.method = Method::DOP853;
@@ -252,19 +275,20 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             stepper.count_evaluations(beginning.evaluations);
         }
         let activity = ContactActivity::new(
-            settings.hands_over && settings.method.kind == MethodKind::RungeKutta,
+            settings.hands_over
+                && matches!(
+                    settings.method.kind,
+                    MethodKind::RungeKutta | MethodKind::Series
+                ),
             (system.unilateral_contacts())
                 .map(|contact| contact.is_second_tangent)
                 .collect(),
         );
         let choosing = match *chosen {
-            Some(choice) => {
-                let may_change = system.unilateral_contacts().len() == 0;
-                Choosing::begun(start.t, choice, may_change)
-            }
+            Some(choice) => Choosing::begun(start.t, choice, !has_contacts),
             None => Choosing::none(),
         };
-        let mut run = Run {
+        let mut run = Box::new(Run {
             model,
             stepper,
             callbacks,
@@ -276,11 +300,12 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             activity,
             contact_looks: ContactLooks::default(),
             held: None,
+            flights: Flights::new(flies_by_series, chosen.filter(|_| has_contacts)),
             choosing,
             shown: None,
             record: Record::begun(settings, start, sampled_inputs, piece),
             settings,
-        };
+        });
         run.begin_at(start, ended.as_deref())?;
         Ok(run)
     }
@@ -289,7 +314,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
 /// A run in progress.
 pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> {
     model: Model<'r, M::System, L>,
-    stepper: Stepper<'r, M::System, LawInPiece<'r, L, Inputs<M>>, A>,
+    /// In a box for the same reason.
+    stepper: Box<StepperOf<'r, M, L, A>>,
     settings: &'r Settings,
     callbacks: &'r mut Callbacks<'a, M>,
     start: f64,
@@ -306,6 +332,8 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
     contact_looks: ContactLooks<VectorOf<M>, <M::System as System>::Matrix>,
     /// Bounds within which all assumptions hold.
     held: Held<VectorOf<M>>,
+    /// How it goes on while all unilateral contacts are open.
+    flights: Flights,
     /// The choice of the method, if the run makes it.
     choosing: Choosing,
     /// Memory of the state that is shown to the function that may stop the run.
@@ -362,6 +390,9 @@ struct Record<M: Machine> {
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 
+/// The stepper of a run.
+type StepperOf<'r, M, L, A> = Stepper<'r, <M as Machine>::System, LawInPiece<'r, L, Inputs<M>>, A>;
+
 impl<M: Machine> Record<M> {
     /// The records at the start of a run.
     fn begun(
@@ -370,7 +401,13 @@ impl<M: Machine> Record<M> {
         sampled_inputs: Option<Inputs<M>>,
         piece: Piece,
     ) -> Self {
-        let others: &[_] = if settings.automatic { &CANDIDATES } else { &[] };
+        let is_series = settings.method.kind == MethodKind::Series;
+        let others: &[_] = match settings.automatic {
+            true => &CANDIDATES,
+            // With unilateral contacts it is used while one is closed.
+            false if is_series && M::System::MAY_COLLIDE => &CANDIDATES[..1],
+            false => &[],
+        };
         let sampled_inputs = sampled_inputs.map(|inputs| (start.t, inputs));
         Self {
             sampled_inputs: sampled_inputs.into_iter().collect(),

@@ -261,7 +261,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// time begins with `dop853` in any case, since its series must be derived first: once the run has proved long enough, this is done, and the run goes on by series if their steps cost less. When stability and not
     /// accuracy limits the steps, it changes to a Radau method, of order 5, 9 or 13 depending on the tolerance, and back once its steps,
     /// linear equations included, have cost more than explicit ones would. A machine with unilateral contacts [hands over](Self::hand_over) to
-    /// time stepping and back, and is not tested for stiffness. All decisions follow from counts, never from a clock: the same call gives
+    /// time stepping and back, and is not tested for stiffness; it begins with `dop853`, and goes by series while all contacts are open if the flights so far show that it pays. All decisions follow from counts, never from a clock: the same call gives
     /// the same bits.
     ///
     /// ```
@@ -295,7 +295,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// located again after 64 steps in which no contact changed, and after twice as many each time that this did not last, provided that
     /// fewer than 16 contacts are closed in space, or their forces are unique: in piles, which can share loads in several ways, events cost more.
     ///
-    /// For explicit and Radau methods. Contacts whose law time stepping does not support are followed as before.
+    /// For explicit and Radau methods, and [`TAYLOR`](crate::TAYLOR). Contacts whose law time stepping does not support are followed as before.
     pub fn hand_over(mut self) -> Self {
         self.settings.hands_over = true;
         self

@@ -460,8 +460,8 @@ impl<M: Machine, L> Solution<M, L> {
         &self.results.handovers
     }
 
-    /// The methods that the run used, with times and reasons, in order; empty
-    /// unless [`automatic`](crate::Simulation::automatic) was requested.
+    /// The methods that the run used, with times and reasons, in order; empty unless [`automatic`](crate::Simulation::automatic) was requested, or
+    /// [`TAYLOR`](crate::TAYLOR) for a machine with unilateral contacts.
     pub fn choices(&self) -> &[MethodChoice] {
         &self.results.choices
     }

@@ -111,6 +111,15 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     /// `None` unless the method is by Taylor series.
     #[cfg(feature = "std")]
     taylor: Option<Box<Taylor<S::Vector>>>,
+    /// Whether contacts change where the step ends that ends at `end`.
+    #[cfg(feature = "std")]
+    ends_at_change: bool,
+    /// The longest first step by series after contacts have changed, so that it does not miss a short flight.
+    #[cfg(feature = "std")]
+    longest_first: f64,
+    /// The length of the last step by series that its tolerance allows, in s.
+    #[cfg(feature = "std")]
+    tolerable: f64,
     /// `None` unless the method is time stepping.
     #[cfg(feature = "std")]
     impulses: Option<Box<InImpulses<S::Vector, S::Matrix>>>,
@@ -212,10 +221,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
         #[cfg(feature = "std")]
         if method.kind == MethodKind::Series {
-            let inputs = !law.is_constant();
-            if inputs || system.check_series().is_err() {
-                return Err(StepError::NoSeries { inputs, t });
-            }
+            Self::check_series(system.get(), &law, t)?;
         }
         let zeros = q.zeros_like();
         let mut start = Point::new(t, q, v);
@@ -259,6 +265,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             #[cfg(feature = "std")]
             taylor: None,
             #[cfg(feature = "std")]
+            ends_at_change: false,
+            #[cfg(feature = "std")]
+            longest_first: f64::INFINITY,
+            #[cfg(feature = "std")]
+            tolerable: f64::INFINITY,
+            #[cfg(feature = "std")]
             impulses: None,
             #[cfg(feature = "std")]
             fixed: None,
@@ -267,6 +279,16 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         stepper.begin_method()?;
         stepper.begin_motion()?;
         Ok(stepper)
+    }
+
+    /// Checks that a motion has a series.
+    #[cfg(feature = "std")]
+    pub(crate) fn check_series(system: &S, law: &L, t: f64) -> Result<(), StepError> {
+        let inputs = !law.is_constant();
+        if inputs || system.check_series().is_err() {
+            return Err(StepError::NoSeries { inputs, t });
+        }
+        Ok(())
     }
 
     /// Makes what the method needs beside the stages of a step.
@@ -651,6 +673,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             self.control.step = self.control.last_step;
         }
         self.end = end;
+        #[cfg(feature = "std")]
+        {
+            self.ends_at_change = false;
+        }
     }
 
     /// Evaluates the present acceleration again if something that it depends on has changed.

@@ -671,6 +671,14 @@ pub trait System {
         None
     }
 
+    /// What the powers of an energy balance add to these costs, in the same unit: to an evaluation, and to a step by series with 12 and with 20 coefficients. An
+    /// estimate from operation counts, too; 0 where there are [no powers](Self::has_powers).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn powers_cost(&self) -> [f64; 3] {
+        [0.0; 3]
+    }
+
     /// If the series is derived only when [`check_series`](Self::check_series) is called for the first time: about how many evaluations of the
     /// accelerations in steps of `dop853` take as long; infinite where there is no series for certain. A run that chooses its method does not call it
     /// before. It is an estimate from operation counts, and the same whether the series has been derived or not.

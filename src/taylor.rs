@@ -13,7 +13,7 @@ mod bounds;
 use std::vec::Vec;
 
 use crate::compensated::two_sum;
-use crate::math::{rough_exp2, rough_log2};
+use crate::math::{larger, rough_exp2, rough_log2};
 use crate::scalar::Kernel;
 use crate::series_memory::SeriesMemory;
 use crate::stages::{Point, in_blocks};
@@ -48,6 +48,29 @@ pub(crate) const FINE: f64 = 1e-5;
 pub(crate) fn rows(tolerance: f64) -> usize {
     ORDERS[usize::from(tolerance <= FINE)] + 2
 }
+
+/// Runs a kernel for `n` coordinates, from `start` to `end` each time: in blocks of four, then of two and of one. Returns whether all of them return `true`.
+macro_rules! in_registers {
+    ($n:expr, |$start:ident, $end:ident| $kernel:expr) => {{
+        let n = $n;
+        let (fours, twos) = (n / 4 * 4, n / 2 * 2);
+        let mut are_fine = true;
+        if fours > 0 {
+            let ($start, $end) = (0, fours);
+            are_fine &= Lanes::<4>::run($kernel);
+        }
+        if twos > fours {
+            let ($start, $end) = (fours, twos);
+            are_fine &= Lanes::<2>::run($kernel);
+        }
+        if n > twos {
+            let ($start, $end) = (twos, n);
+            are_fine &= f64::run($kernel);
+        }
+        are_fine
+    }};
+}
+use in_registers;
 
 /// The coefficients of the motion through the beginning of the last step and through its end.
 #[derive(Clone, Debug)]
@@ -230,31 +253,15 @@ impl<V: Vector> Taylor<V> {
         now.set_time(before, h, (to.0, &[to.1]));
         let n = before.q.as_slice().len();
         let coefficients = self.of_step();
-        macro_rules! part {
-            ($start:expr, $end:expr) => {
-                Advance {
-                    coefficients,
-                    h,
-                    before,
-                    now: &mut *now,
-                    a: &mut *a,
-                    start: $start,
-                    end: $end,
-                }
-            };
-        }
-        let (fours, twos) = (n / 4 * 4, n / 2 * 2);
-        let mut is_fine = true;
-        if fours > 0 {
-            is_fine &= Lanes::<4>::run(part!(0, fours));
-        }
-        if twos > fours {
-            is_fine &= Lanes::<2>::run(part!(fours, twos));
-        }
-        if n > twos {
-            is_fine &= f64::run(part!(twos, n));
-        }
-        is_fine
+        in_registers!(n, |start, end| Advance {
+            coefficients,
+            h,
+            before,
+            now: &mut *now,
+            a: &mut *a,
+            start,
+            end,
+        })
     }
 }
 
@@ -276,7 +283,7 @@ fn usual_ratios<V: Vector>(
         for k in 0..2 {
             let ratio = (powers[k] * rows[k][i].abs()) * over;
             sum += ratio;
-            worst[k] = worst[k].max(ratio);
+            worst[k] = larger(worst[k], ratio);
         }
     }
     (worst[0] > 0.0 && worst[1] > 0.0 && sum.is_finite()).then_some(worst)
@@ -294,6 +301,8 @@ trait Block: Copy {
     fn each(x: f64) -> Self;
     /// Whether all of them are finite.
     fn are_finite(self) -> bool;
+    /// Whether all of them are numbers that are not negative.
+    fn are_not_negative(self) -> bool;
 }
 
 impl Block for f64 {
@@ -315,6 +324,10 @@ impl Block for f64 {
     #[inline(always)]
     fn are_finite(self) -> bool {
         self.is_finite()
+    }
+    #[inline(always)]
+    fn are_not_negative(self) -> bool {
+        self >= 0.0
     }
 }
 
@@ -340,6 +353,14 @@ impl<const W: usize> Block for Lanes<W> {
         let mut fine = true;
         for x in self.0 {
             fine &= x.is_finite();
+        }
+        fine
+    }
+    #[inline(always)]
+    fn are_not_negative(self) -> bool {
+        let mut fine = true;
+        for x in self.0 {
+            fine &= x >= 0.0;
         }
         fine
     }
@@ -419,7 +440,9 @@ impl<T: Block, V: Vector> Kernel<T> for Advance<'_, V> {
 /// step. A coordinate may be far larger than its rate, such as an angle after many turns or the radius of a planet's orbit.
 #[inline(always)]
 pub(crate) fn size_of_rate(q: f64, v: f64) -> f64 {
-    v.abs().max(q.abs().min(1.0))
+    let of_coordinate = if q.abs() < 1.0 { q.abs() } else { 1.0 };
+    // Its own where the rate is not a number.
+    larger(of_coordinate, v.abs())
 }
 
 /// Whether the coordinates limit a step, too, whose length follows from the rates and whose last power of time is `last`. The last terms of a
@@ -606,19 +629,11 @@ impl<N: Real, V: Vector<N>> Coefficients<N> for Rows<'_, V> {
     }
 }
 
-/// `a·factor + c` for each number, `FUSED` where the arithmetic of the numbers fuses them, or with a rounding of the product.
+/// `a·factor + c` for each number.
 #[inline(always)]
-fn horner<const B: usize, const FUSED: bool, N: Scalar>(
-    mut a: [N; B],
-    factor: N,
-    c: [N; B],
-) -> [N; B] {
+fn horner<const B: usize, N: Scalar>(mut a: [N; B], factor: N, c: [N; B]) -> [N; B] {
     for i in 0..B {
-        a[i] = if FUSED {
-            a[i].mul_add(factor, c[i])
-        } else {
-            a[i] * factor + c[i]
-        };
+        a[i] = a[i].mul_add(factor, c[i]);
     }
     a
 }
@@ -632,48 +647,26 @@ fn times<const B: usize, N: Scalar>(factor: N, mut a: [N; B]) -> [N; B] {
     a
 }
 
-/// Adds the terms of one power of the time by Horner's rule to the sums of coordinates, of rates, and with `D` = 3 of accelerations.
-/// `step` is the ratio of the powers of successive terms.
+/// A step of Horner's rule for polynomials, in `sums[0]`, and their first derivatives over the factorials of their orders.
 #[inline(always)]
-fn add_terms<const B: usize, const D: usize, const FUSED: bool, N: Scalar>(
+fn take_term<const B: usize, const D: usize, N: Scalar>(
     sums: &mut [[N; B]; D],
-    step: N,
-    power: N,
-    terms: [N; B],
+    x: N,
+    next: [N; B],
 ) {
-    sums[0] = horner::<B, FUSED, N>(sums[0], step, terms);
-    let weighted = times(power, terms);
-    sums[1] = horner::<B, FUSED, N>(sums[1], step, weighted);
-    if D == 3 {
-        let weighted = times(power - N::ONE, weighted);
-        sums[D - 1] = horner::<B, FUSED, N>(sums[D - 1], step, weighted);
+    for d in (1..D).rev() {
+        sums[d] = horner(sums[d], x, sums[d - 1]);
     }
+    sums[0] = horner(sums[0], x, next);
 }
 
 /// The changes of `B` coordinates from `start` on, and of their rates, in a time `tau`, and with `D` = 3 their accelerations then.
 ///
-/// Every fourth term belongs to the same sum, so no sum waits for another, and the dependency chain is a quarter as long as with one.
+/// With `q(τ) = q + τ (v + τ M(τ))` they are `τ (v + τ M)`, `τ (2 M + τ M')` and `2 M + 4 τ M' + τ² M''`. The polynomial is `M(τ) = E(τ²) + τ O(τ²)`, and both
+/// parts are computed with their derivatives by Horner's rule (D. E. Knuth, *The Art of Computer Programming*, vol. 2, 3rd ed. 1998, section 4.6.4): two
+/// dependency chains half as long, and for each term three multiplications that are fused with additions.
 #[inline(always)]
 pub(crate) fn motion<const B: usize, const D: usize, N: Scalar>(
-    coefficients: &impl Coefficients<N>,
-    start: usize,
-    tau: N,
-) -> [[N; B]; D] {
-    motion_with::<B, D, true, N>(coefficients, start, tau)
-}
-
-/// [`motion`] in registers of any kind, with the bits of plain `f64`, which do not fuse products and sums.
-#[inline(always)]
-pub(crate) fn motion_as_plain<const B: usize, const D: usize, N: Scalar>(
-    coefficients: &impl Coefficients<N>,
-    start: usize,
-    tau: N,
-) -> [[N; B]; D] {
-    motion_with::<B, D, false, N>(coefficients, start, tau)
-}
-
-#[inline(always)]
-fn motion_with<const B: usize, const D: usize, const FUSED: bool, N: Scalar>(
     coefficients: &impl Coefficients<N>,
     start: usize,
     tau: N,
@@ -685,51 +678,34 @@ fn motion_with<const B: usize, const D: usize, const FUSED: bool, N: Scalar>(
         )
     };
     let square = tau * tau;
-    let step = square * square;
     let terms = coefficients.count().saturating_sub(2);
-    let mut j = 2 + terms / 4 * 4;
-    let rest = terms % 4;
-    // The sums are four variables and not an array, so that a compiler keeps them in registers.
-    let (mut sums_0, mut sums_1) = ([[N::ZERO; B]; D], [[N::ZERO; B]; D]);
-    let (mut sums_2, mut sums_3) = ([[N::ZERO; B]; D], [[N::ZERO; B]; D]);
-    let mut power = N::from_f64(j as f64);
-    let [two, three] = [N::from_f64(2.0), N::from_f64(3.0)];
-    macro_rules! add {
-        ($sums:ident, $k:literal, $power:expr) => {
-            add_terms::<B, D, FUSED, N>(
-                &mut $sums,
-                step,
-                $power,
-                coefficients.block::<B>(j + $k, start),
-            )
-        };
+    // Two variables and not an array, so that a compiler keeps them in registers.
+    let (mut even, mut odd) = ([[N::ZERO; B]; D], [[N::ZERO; B]; D]);
+    let mut i = terms / 2 * 2;
+    if terms % 2 == 1 {
+        even[0] = coefficients.block::<B>(2 + i, start);
     }
-    if rest > 0 {
-        add!(sums_0, 0, power);
+    while i > 0 {
+        i -= 2;
+        take_term(&mut odd, square, coefficients.block::<B>(3 + i, start));
+        take_term(&mut even, square, coefficients.block::<B>(2 + i, start));
     }
-    if rest > 1 {
-        add!(sums_1, 1, power + N::ONE);
+    let [two, three, four] = [N::from_f64(2.0), N::from_f64(3.0), N::from_f64(4.0)];
+    let (twice, four_times) = (two * square, four * square);
+    let m = horner(odd[0], tau, even[0]);
+    // τ M' = 2 τ² E' + τ (O + 2 τ² O')
+    let first = horner(horner(odd[1], twice, odd[0]), tau, times(twice, even[1]));
+    let by_v = times(tau, horner(m, two, first));
+    let by_q = times(tau, horner(m, tau, coefficients.block::<B>(1, start)));
+    let mut motion = [by_q; D];
+    motion[1] = by_v;
+    if D == 3 {
+        // τ² M'' = 2 τ² (E' + 2 τ² E'' + τ (3 O' + 2 τ² O'')), with half of the second derivatives at hand
+        let of_even = horner(even[D - 1], four_times, even[1]);
+        let of_odd = horner(odd[D - 1], four_times, times(three, odd[1]));
+        let second = times(twice, horner(of_odd, tau, of_even));
+        motion[D - 1] = horner(m, two, horner(first, four, second));
     }
-    if rest > 2 {
-        add!(sums_2, 2, power + two);
-    }
-    while j > 2 {
-        j -= 4;
-        power = power - N::from_f64(4.0);
-        add!(sums_0, 0, power);
-        add!(sums_1, 1, power + N::ONE);
-        add!(sums_2, 2, power + two);
-        add!(sums_3, 3, power + three);
-    }
-    let mut motion = sums_0;
-    for d in 0..D {
-        let near = horner::<B, FUSED, N>(sums_1[d], tau, sums_0[d]);
-        let beyond = horner::<B, FUSED, N>(sums_3[d], tau, sums_2[d]);
-        motion[d] = horner::<B, FUSED, N>(beyond, square, near);
-    }
-    let first = coefficients.block::<B>(1, start);
-    motion[0] = times(tau, horner::<B, FUSED, N>(motion[0], tau, first));
-    motion[1] = times(tau, motion[1]);
     motion
 }
 
@@ -753,16 +729,49 @@ pub(crate) fn state_with_accelerations<V: Vector>(
     tau: f64,
     [q, v, a]: [&mut V; 3],
 ) {
-    q.clone_from(&coefficients[0]);
-    v.clone_from(&coefficients[1]);
-    in_blocks!(a.as_slice().len(), |start, B| {
-        let [by_q, by_v, there] = motion::<B, 3, f64>(&Rows(coefficients), start, tau);
-        for k in 0..B {
-            q.as_mut_slice()[start + k] += by_q[k];
-            v.as_mut_slice()[start + k] += by_v[k];
-        }
-        a.as_mut_slice()[start..start + B].copy_from_slice(&there);
+    let n = a.as_slice().len();
+    in_registers!(n, |start, end| Along {
+        coefficients,
+        tau,
+        at: [&mut *q, &mut *v, &mut *a],
+        start,
+        end,
     });
+}
+
+/// [`state_with_accelerations`] for the coordinates from `start` to `end`, whose number is a multiple of that of a block, as a kernel.
+struct Along<'a, V> {
+    coefficients: &'a [V],
+    tau: f64,
+    at: [&'a mut V; 3],
+    start: usize,
+    end: usize,
+}
+
+impl<T: Block, V: Vector> Kernel<T> for Along<'_, V> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) -> bool {
+        let Self {
+            coefficients,
+            at: [q, v, a],
+            mut start,
+            end,
+            ..
+        } = self;
+        let tau = N::load(T::each(self.tau));
+        let rows = Blocks(coefficients);
+        while start < end {
+            let [[by_q], [by_v], [there]] = motion::<1, 3, N>(&rows, start, tau);
+            let [q_then, v_then]: [[N; 1]; 2] = [rows.block(0, start), rows.block(1, start)];
+            (q_then[0] + by_q).store().write(q.as_mut_slice(), start);
+            (v_then[0] + by_v).store().write(v.as_mut_slice(), start);
+            there.store().write(a.as_mut_slice(), start);
+            start += T::COUNT;
+        }
+        true
+    }
 }
 
 /// The accelerations at a time `tau` after the state that was expanded.

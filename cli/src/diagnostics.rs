@@ -61,7 +61,11 @@ impl fmt::Display for Entry {
 
 /// Prints the error of a run to standard error, with its place in the spec underlined.
 pub fn print_placed(error: &Placed) {
-    let place = snippet(&error.sources, error.span, AnnotationKind::Primary, None);
+    let kind = match error.note {
+        None => AnnotationKind::Primary,
+        Some(_) => AnnotationKind::Context,
+    };
+    let place = snippet(&error.sources, error.span, kind, error.note.as_ref());
     let group = Group::with_title(Level::ERROR.primary_title(&error.message)).element(place);
     output::print_error(renderer().render(&[group]));
 }

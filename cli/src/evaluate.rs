@@ -66,7 +66,9 @@ struct Numbered {
 /// singular, is reported as a result.
 pub fn run(call: &call::Evaluate) -> Result<(), Failure> {
     let dag = Dag::new();
-    let compiled = Reading::open(&call.spec)?.compile(&dag)?;
+    let compiled = Reading::open(&call.spec)?
+        .with_values(&call.start)
+        .compile(&dag)?;
     let machine = reading::machine(&compiled, &call.start)?;
     // A wrong name is an error of the call, not of each point.
     let mut start = machine.start();

@@ -24,13 +24,17 @@ impl Failure {
                 diagnostics::print(&report, &sources);
                 return 1;
             }
-            Failure::Placed(placed) => {
+            Failure::Placed(ref placed) | Failure::PlacedCall(ref placed) => {
                 if json {
                     let document = json!({ "error": placed.message, "place": placed.place() });
                     output::line(format_args!("{document:#}"));
                 }
-                diagnostics::print_placed(&placed);
-                return 1;
+                diagnostics::print_placed(placed);
+                return if matches!(self, Failure::Placed(_)) {
+                    1
+                } else {
+                    2
+                };
             }
             Failure::Run(message) => (1, message),
             Failure::Detailed(message, further) => {

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 
 use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::model::Model;
 use lagrangian_spec::source::Sources;
 use serde_json::{Map, Value};
 
@@ -25,6 +26,8 @@ pub enum Failure {
     Interrupted,
     /// The call is invalid.
     Call(String),
+    /// Like [`Failure::Call`], for a value that does not fit a declaration in the spec.
+    PlacedCall(Box<Placed>),
 }
 
 impl Failure {
@@ -39,9 +42,22 @@ impl Failure {
             Failure::Run(message) | Failure::Call(message) | Failure::Detailed(message, _) => {
                 message
             }
-            Failure::Placed(placed) => placed.message,
+            Failure::Placed(placed) | Failure::PlacedCall(placed) => placed.message,
             Failure::Spec(_) => "the spec is invalid".to_owned(),
             Failure::AlreadyReported | Failure::Interrupted => String::new(),
+        }
+    }
+}
+
+impl Failure {
+    /// This failure, with the place in the spec if its message contains the error of a run whose reason the spec states.
+    pub fn placed(self, model: &Model<'_>, sources: &Sources) -> Failure {
+        match self {
+            Failure::Run(message) => match Placed::of_message(&message, model, sources) {
+                Some(placed) => Failure::Placed(Box::new(placed)),
+                None => Failure::Run(message),
+            },
+            other => other,
         }
     }
 }

@@ -104,13 +104,14 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let everywhere = inputs::parse(&call.inputs)?;
     let files = Files::new(call, &given, &everywhere)?;
     let dag = Dag::new();
-    let mut reading = Reading::open(&call.spec)?;
+    let mut reading = Reading::open(&call.spec)?.with_values(&call.start);
     let laws = reading.drive(&everywhere)?;
     let formulas = reading.formulas();
     let compiled = reading.compile_in_charts(&dag, files.all(), ChartUse::IfPossible);
     let InCharts {
         mut compiled,
         cartesian,
+        sources,
         ..
     } = compiled.map_err(inputs::as_call_failure)?;
     let machine = reading::machine(&compiled, &call.start)?;
@@ -171,7 +172,8 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     }
     progress::now("fitting");
     let count = usize::try_from(call.starts.min(MOST_SEARCHES)).unwrap_or(1);
-    let searched = search(&mut fit, count, sigmas).map_err(failure)?;
+    let searched = search(&mut fit, count, sigmas);
+    let searched = searched.map_err(|failed| failure(failed).placed(&compiled.model, &sources))?;
     let mut result = Fitted {
         call,
         machine: &machine,

@@ -161,14 +161,6 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         _ => Version::Three,
     };
     let dag = Dag::new();
-    let mut reading = Reading::open(&call.spec)?;
-    for event in &call.events {
-        check_name(&event.name)?;
-        reading.add_formula(&format!("--event {}", event.name), &event.value, None);
-    }
-    let compiled = reading.compile_beside(&dag, [&out])?;
-    check_sections(&compiled.program)?;
-    check_events(&compiled, &call.events)?;
     let start_options = call::Start {
         parameters: call.parameters.clone(),
         coordinates: call.coordinates.clone(),
@@ -177,6 +169,14 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
             engine: Engine::Interpreter,
         },
     };
+    let mut reading = Reading::open(&call.spec)?.with_values(&start_options);
+    for event in &call.events {
+        check_name(&event.name)?;
+        reading.add_formula(&format!("--event {}", event.name), &event.value, None);
+    }
+    let compiled = reading.compile_beside(&dag, [&out])?;
+    check_sections(&compiled.program)?;
+    check_events(&compiled, &call.events)?;
     let machine = reading::machine(&compiled, &start_options)?;
     let start = start(&machine, &start_options)?;
     check_defaults(&compiled.program, &machine)?;

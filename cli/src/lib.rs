@@ -34,6 +34,7 @@ mod methods;
 mod modes;
 mod numbers;
 mod orbit;
+mod other_chart;
 mod output;
 mod peaks;
 mod placed;

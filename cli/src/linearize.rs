@@ -11,8 +11,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
-use lagrangian::{Machine, Simulation, System};
-use lagrangian_linear::model::{self, Model, Observed, Request};
+use lagrangian::{Machine, Simulation, State, System};
+use lagrangian_linear::model::{Label, Model, Observed, Request, about, along};
 use lagrangian_linear::poles::{Pole, poles};
 use lagrangian_linear::spectrum::damping;
 use lagrangian_linear::zeros::zeros;
@@ -23,9 +23,9 @@ use lagrangian_units::{integral_name, rate_unit, state_of};
 use serde_json::{Value, json};
 
 use crate::call;
-use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::modes::{self, OPTIONS, number};
+use crate::other_chart::{self, OtherChart};
 use crate::output;
 use crate::reading::{self, places};
 use files::Files;
@@ -47,19 +47,24 @@ struct Linearization {
 pub fn run(call: &call::Linearize) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
-    let compiled = modes::compiled(&call.spec, &dag, files.all(), "linear model")?;
+    let spec = (&call.spec, &call.search.start);
+    let (compiled, cartesian) = modes::compiled(spec, &dag, files.all(), "linear model")?;
     let varied = ("--along", call.along.as_ref());
     let machine = modes::prepare(&compiled, &call.search, varied)?;
     if let Some(range) = &call.along {
         let trace = modes::vary::trace(&call.search, ("--along", range), &compiled, &machine)?;
         return along::show(call, &machine, &trace, &files);
     }
-    let request = request(call, &machine)?;
-    let (model, place) = if call.here {
-        about_start(call, &machine, &request)?
-    } else {
-        about_motion(call, &machine, &request)?
-    };
+    let start = modes::start(&machine, &call.search)?;
+    // A name that the machine does not have is an error of the call.
+    request(call, &machine)?;
+    let found = linear_model(call, &machine, start.clone()).map(|found| (machine, found));
+    let (machine, (model, place)) = other_chart::search(found, || {
+        let given = (&call.search.start, &call.search.keep);
+        let chart = OtherChart::of(&compiled, cartesian, given, &start)?;
+        let found = linear_model(call, &chart.machine, chart.start);
+        Some(found.map(|found| (chart.machine, found)))
+    })?;
     let none = || Failure::run("the eigenvalues cannot be found");
     let result = Linearization {
         poles: poles(&model.a, &model.a_bounds).ok_or_else(none)?,
@@ -73,6 +78,20 @@ pub fn run(call: &call::Linearize) -> Result<(), Failure> {
         output::text(&format!("{place}{}", text(&result)))
     }
     Ok(())
+}
+
+/// The model that a call asks for, from a start, and a text that describes the operating point.
+fn linear_model(
+    call: &call::Linearize,
+    machine: &InterpretedMachine,
+    start: State<Named>,
+) -> Result<(Model, String), Failure> {
+    let request = request(call, machine)?;
+    if call.here {
+        about_start(call, (machine, start), &request)
+    } else {
+        about_motion(call, (machine, start), &request)
+    }
 }
 
 /// The names of coordinates and of inputs.
@@ -91,19 +110,17 @@ fn names(machine: &InterpretedMachine) -> [Vec<String>; 2] {
 /// The model about the start itself, and a text that describes the operating point.
 fn about_start(
     call: &call::Linearize,
-    machine: &InterpretedMachine,
+    (machine, mut start): (&InterpretedMachine, State<Named>),
     request: &Request,
 ) -> Result<(Model, String), Failure> {
     let search = &call.search;
-    let mut start = machine.start();
-    set_start(&mut start, &search.start)?;
     if machine.prepare().constraints().len() > 0 {
         // A run of length zero only projects its start onto the constraints.
         let simulation = Simulation::new(machine).until(start.t);
         let run = reading::keep(simulation, &search.keep).run_interpreted(start);
         start = run.map_err(Failure::run)?.start().clone();
     }
-    let model = model::about(
+    let model = about(
         machine,
         (start.t, &start.q.values, &start.v.values),
         request,
@@ -139,11 +156,11 @@ fn about_start(
 /// The model about the equilibrium, or along the steady motion, and a text that describes it.
 fn about_motion(
     call: &call::Linearize,
-    machine: &InterpretedMachine,
+    (machine, start): (&InterpretedMachine, State<Named>),
     request: &Request,
 ) -> Result<(Model, String), Failure> {
-    let reached = modes::find_motion(machine, &call.search)?;
-    let model = model::along(machine, &reached.motion, request);
+    let reached = modes::find_motion(machine, start, &call.search)?;
+    let model = along(machine, &reached.motion, request);
     let model = model.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), OPTIONS)))?;
     let system = machine.prepare();
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
@@ -296,7 +313,7 @@ fn as_json(names: &[Vec<String>; 2], result: &Linearization) -> Value {
     let states: serde_json::Map<String, Value> = states
         .filter_map(|(name, x)| Some((state_of(name)?, json!(x))))
         .collect();
-    let labels = |labels: &[model::Label]| -> Vec<Value> {
+    let labels = |labels: &[Label]| -> Vec<Value> {
         let labels = labels.iter();
         labels
             .map(|label| json!({"name": label.name, "unit": label.unit}))
@@ -331,7 +348,7 @@ fn as_json(names: &[Vec<String>; 2], result: &Linearization) -> Value {
 }
 
 /// A list of names with their units.
-fn list(labels: &[model::Label], singular_and_plural: [&str; 2]) -> String {
+fn list(labels: &[Label], singular_and_plural: [&str; 2]) -> String {
     let count = labels.len();
     let noun = singular_and_plural[usize::from(count != 1)];
     let names = labels.iter().map(|label| match label.unit.as_str() {

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
-use lagrangian::{Machine, Simulation, System};
+use lagrangian::{Machine, Simulation, State, System};
 use lagrangian_linear::motion::SteadyMotion;
 use lagrangian_linear::search::{self, Wanted};
 use lagrangian_linear::spectrum::{Mode, Modes, damping};
@@ -15,6 +15,7 @@ use lagrangian_linear::steady::{self, Options};
 use lagrangian_linear::{Complex, model};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::model::Model;
+use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::{rate_name, rate_unit as unit_of_rate, state_of};
 use serde_json::{Map, Value, json};
@@ -22,6 +23,7 @@ use serde_json::{Map, Value, json};
 use crate::call;
 use crate::evaluate::{ended_assumptions, set_start};
 use crate::failure::Failure;
+use crate::other_chart::{self, OtherChart};
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading};
 use crate::table;
@@ -62,13 +64,22 @@ impl Files {
 pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
-    let compiled = compiled(&call.spec, &dag, files.all(), "modes")?;
+    let (compiled, cartesian) =
+        compiled((&call.spec, &call.search.start), &dag, files.all(), "modes")?;
     let machine = prepare(&compiled, &call.search, ("--vary", call.vary.as_ref()))?;
     if let Some(vary) = &call.vary {
         let trace = vary::trace(&call.search, ("--vary", vary), &compiled, &machine)?;
         return show(call, &machine, &trace, &files);
     }
-    let Reached { q, wanted, motion } = find_motion(&machine, &call.search)?;
+    let start = start(&machine, &call.search)?;
+    let found = find_motion(&machine, start.clone(), &call.search);
+    let found = found.map(|reached| (machine, reached));
+    let (machine, Reached { q, wanted, motion }) = other_chart::search(found, || {
+        let given = (&call.search.start, &call.search.keep);
+        let chart = OtherChart::of(&compiled, cartesian, given, &start)?;
+        let found = find_motion(&chart.machine, chart.start, &call.search);
+        Some(found.map(|reached| (chart.machine, reached)))
+    })?;
     let system = machine.prepare();
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
@@ -102,13 +113,19 @@ pub struct Reached {
     pub motion: SteadyMotion,
 }
 
-/// The steady motion that the search reaches from the start of a call.
-pub fn find_motion(
-    machine: &InterpretedMachine,
-    search: &call::Search,
-) -> Result<Reached, Failure> {
+/// The start of a call.
+pub fn start(machine: &InterpretedMachine, search: &call::Search) -> Result<State<Named>, Failure> {
     let mut start = machine.start();
     set_start(&mut start, &search.start)?;
+    Ok(start)
+}
+
+/// The steady motion that the search reaches from a start.
+pub fn find_motion(
+    machine: &InterpretedMachine,
+    mut start: State<Named>,
+    search: &call::Search,
+) -> Result<Reached, Failure> {
     let wanted = wanted(search, &mut start.v)?;
     let q = start.q.values.clone();
     refuse_drives(machine, &q, &wanted)?;
@@ -130,7 +147,7 @@ pub fn warn_of_ended(machine: &InterpretedMachine, state: (f64, &Vec<f64>, &Vec<
 fn on_constraints(
     machine: &InterpretedMachine,
     keep: &call::Keep,
-    start: lagrangian::State<Named>,
+    start: State<Named>,
 ) -> Result<Vec<f64>, Failure> {
     let system = machine.prepare();
     let is_kept = match reading::kept_names(keep) {
@@ -160,60 +177,56 @@ pub fn motion(
     Ok(motion)
 }
 
-/// Compiles a spec for a purpose, `modes` or a `linear model`, and refuses machines without support for it.
+/// Compiles a spec for a purpose, `modes` or a `linear model`, and refuses machines without support for it. Also gives the model in the
+/// other chart, if the spec names one.
 pub fn compiled<'d, 'a>(
-    spec: &call::Spec,
+    (spec, start): (&call::Spec, &call::Start),
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
     noun: &str,
-) -> Result<Compiled<'d>, Failure> {
+) -> Result<(Compiled<'d>, Option<Box<Model<'d>>>), Failure> {
     let with_sliding = format!(
         "friction can hold a machine at rest anywhere within a range, and sliding friction has no linearization at rest: a \
          machine with `sliding` has no {noun}; use a variant without friction, with a constraint in place of each guide"
     );
-    let with_contacts = format!(
-        "collisions have no linearization: a machine with `contacts` has no {noun}; use a variant without them"
-    );
-    let refused = (with_sliding, Some(with_contacts));
-    compile(Reading::open(spec)?, dag, files, refused, |_| Ok(()))
+    let reading = Reading::open(spec)?.with_values(start);
+    let mut cartesian = None;
+    let (compiled, _) = compile(reading, dag, files, with_sliding, |model| {
+        cartesian = model.cartesian.take();
+        Ok(())
+    })?;
+    Ok((compiled, cartesian))
 }
 
-/// Compiles an opened spec for derivatives of motions; `change` modifies its model before it is derived.
+/// Compiles an opened spec for derivatives of motions, and gives its source texts too; `change` modifies its model before it is derived.
 pub fn compiled_with<'d, 'a>(
     reading: Reading,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
     noun: &str,
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
-) -> Result<Compiled<'d>, Failure> {
+) -> Result<(Compiled<'d>, Sources), Failure> {
     let with_sliding = format!(
         "finding the {noun} of a machine with `sliding` requires derivatives of its motion, which do not exist where it begins to stick or to \
          slide; use a variant without friction, with a constraint in place of each guide"
     );
-    // Derivatives can be continued across impacts.
-    compile(reading, dag, files, (with_sliding, None), change)
+    compile(reading, dag, files, with_sliding, change)
 }
 
-/// Compiles an opened spec; `change` modifies its model before it is derived. The messages explain why `sliding` and, if refused,
-/// `contacts` are not supported.
+/// Compiles an opened spec; `change` modifies its model before it is derived. The message explains why `sliding` is not supported.
 fn compile<'d, 'a>(
     mut reading: Reading,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
-    (with_sliding, with_contacts): (String, Option<String>),
+    with_sliding: String,
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
-) -> Result<Compiled<'d>, Failure> {
+) -> Result<(Compiled<'d>, Sources), Failure> {
     let mut model = reading.model(dag);
     reading.keep_from(files)?;
-    if let Some(model) = &model {
-        if !model.sliding().is_empty() {
-            return Err(Failure::Run(with_sliding));
-        }
-        if let Some(refused) = with_contacts
-            && !model.contacts.is_empty()
-        {
-            return Err(Failure::Run(refused));
-        }
+    if let Some(model) = &model
+        && !model.sliding().is_empty()
+    {
+        return Err(Failure::Run(with_sliding));
     }
     if let Some(model) = &mut model {
         let derivatives = model.derivatives.clone();
@@ -227,7 +240,7 @@ fn compile<'d, 'a>(
     match compiled {
         Some(compiled) => {
             reading.warn();
-            Ok(compiled)
+            Ok((compiled, reading.sources))
         }
         None => Err(reading.failure()),
     }

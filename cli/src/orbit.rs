@@ -9,7 +9,8 @@ use lagrangian::{Machine, Simulation, State, System};
 use lagrangian_linear::DMatrix;
 use lagrangian_linear::orbit::{self, Multiplier, NoOrbit, Orbit, Period, Sought, Stability};
 use lagrangian_mechanics::Compiled;
-use lagrangian_spec::model::{Variable, stage};
+use lagrangian_spec::model::{Model, Variable, stage};
+use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::{integral_name, rate_name, rate_unit, state_of};
 use serde_json::{Value, json};
@@ -21,6 +22,7 @@ use crate::linearize::arrays::{Array, Content};
 use crate::linearize::{mat, npz};
 use crate::modes::{self, number};
 use crate::numbers::{self, by_name, shortest};
+use crate::other_chart::{self, OtherChart};
 use crate::output::{self, Destination, ORBIT, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading, name_error, places};
 use crate::recording::Run;
@@ -47,9 +49,13 @@ const SAME: f64 = 1e-5;
 /// A machine with its period.
 struct Ready<'d> {
     compiled: Compiled<'d>,
+    /// The source texts of the spec, for errors of runs.
+    sources: Sources,
     machine: InterpretedMachine,
     /// The formula of the period, and the index of its output.
     period: Option<(String, usize)>,
+    /// The start of the call.
+    start: State<Named>,
 }
 
 /// Runs the command.
@@ -66,12 +72,41 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
     output::keep_document_apart(all.iter().copied(), call.spec.json)?;
     keep_apart(all.iter().copied(), &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
-    let ready = prepare(call, &dag, &all)?;
-    let sought = sought(call, &ready)?;
+    let (ready, cartesian) = prepare(call, &dag, &all)?;
+    let placed = |failure: Failure| failure.placed(&ready.compiled.model, &ready.sources);
     progress::now("searching for the orbit");
     if let Some(vary) = &call.along {
-        return along(call, &ready, &sought, vary, &files);
+        let sought = sought(call, &ready).map_err(placed)?;
+        return along(call, &ready, &sought, vary, &files).map_err(placed);
     }
+    let mut in_other = None;
+    let found = other_chart::search(search(call, &ready), || {
+        let given = (&call.start, &call.keep);
+        let chart = OtherChart::of(&ready.compiled, cartesian, given, &ready.start)?;
+        let other = Ready {
+            compiled: chart.compiled,
+            sources: ready.sources.clone(),
+            machine: chart.machine,
+            period: ready.period.clone(),
+            start: chart.start,
+        };
+        let found = search(call, &other);
+        in_other = Some(other);
+        Some(found)
+    });
+    let (orbit, motion) = found.map_err(placed)?;
+    show(
+        call,
+        in_other.as_ref().unwrap_or(&ready),
+        &files,
+        (&orbit, &motion),
+    )
+    .map_err(placed)
+}
+
+/// The orbit near the start of a call, and one period of its motion.
+fn search(call: &call::Orbit, ready: &Ready<'_>) -> Result<(Orbit, Run), Failure> {
+    let sought = sought(call, ready)?;
     let orbit = orbit::find(&ready.machine, &sought).map_err(|none| {
         no_orbit_failure(
             &none,
@@ -80,28 +115,36 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
         )
     })?;
     let motion = motion(&ready.machine, &orbit, call)?;
-    runs::warn(&motion);
-    let periods = periods_within(&ready.machine, &orbit, call)?;
-    let mut document = as_json(&ready.machine, &orbit);
+    Ok((orbit, motion))
+}
+
+/// Writes and prints an orbit.
+fn show(
+    call: &call::Orbit,
+    ready: &Ready<'_>,
+    files: &[Option<Destination>; 2],
+    (orbit, motion): (&Orbit, &Run),
+) -> Result<(), Failure> {
+    runs::warn(motion);
+    let periods = periods_within(&ready.machine, orbit, call)?;
+    let mut document = as_json(&ready.machine, orbit);
     document["periods"] = json!(periods);
     if let Some(file) = &files[0] {
         match file.ending() {
-            "npz" => {
-                file.write(|to| to.write_all(&npz::bytes(&arrays(&ready.machine, &orbit))?))?
-            }
-            "mat" => file.write(|to| to.write_all(&mat::bytes(&arrays(&ready.machine, &orbit))))?,
+            "npz" => file.write(|to| to.write_all(&npz::bytes(&arrays(&ready.machine, orbit))?))?,
+            "mat" => file.write(|to| to.write_all(&mat::bytes(&arrays(&ready.machine, orbit))))?,
             "json" => file.write_text(&format!("{document:#}\n"))?,
-            _ => table::write(&simulate::record(&motion), file)?,
+            _ => table::write(&simulate::record(motion), file)?,
         }
     }
     if let Some(file) = &files[1] {
-        let recording = simulate::record(&motion);
+        let recording = simulate::record(motion);
         file.write_text(&plot::svg(ready.machine.name(), &recording).map_err(Failure::Run)?)?;
     }
     if call.spec.json {
         output::line(format_args!("{document:#}"))
     } else {
-        output::text(&text(&orbit, periods))
+        output::text(&text(orbit, periods))
     }
     Ok(())
 }
@@ -148,16 +191,17 @@ fn coordinates_that_must_return(machine: &InterpretedMachine, sought: &Sought) -
         .collect()
 }
 
-/// The machine of a call, with the derivatives that the variational equations need.
+/// The machine of a call, with the derivatives that the variational equations need, and its model in the other chart if its spec names one.
 fn prepare<'d>(
     call: &call::Orbit,
     dag: &'d Dag,
     files: &[&Destination],
-) -> Result<Ready<'d>, Failure> {
-    let mut reading = Reading::open(&call.spec)?;
+) -> Result<(Ready<'d>, Option<Box<Model<'d>>>), Failure> {
+    let mut reading = Reading::open(&call.spec)?.with_values(&call.start);
     if let Some(period) = &call.period {
         reading.add_formula("--period TIME", period, Some("s"));
     }
+    let mut cartesian = None;
     let compiled = modes::compiled_with(
         reading,
         dag,
@@ -172,14 +216,18 @@ fn prepare<'d>(
                     "--period {period}: a period can depend only on numbers and parameters"
                 )));
             }
-            differentiate(
-                &mut model.derivatives,
-                Variable::of_state(model.coordinates.len()),
-            );
+            cartesian = model.cartesian.take();
+            let n = model.coordinates.len();
+            for model in [Some(&mut *model), cartesian.as_deref_mut()]
+                .into_iter()
+                .flatten()
+            {
+                differentiate(&mut model.derivatives, Variable::of_state(n));
+            }
             Ok(())
         },
     );
-    let compiled = compiled.map_err(inputs::as_call_failure)?;
+    let (compiled, sources) = compiled.map_err(inputs::as_call_failure)?;
     let mut machine = reading::machine(&compiled, &call.start)?;
     reading::set_first(&mut machine, &call.start, ("--along", call.along.as_ref()))?;
     reading::check_parameters(&machine)?;
@@ -188,11 +236,16 @@ fn prepare<'d>(
         .period
         .clone()
         .map(|formula| (formula, compiled.model.outputs.len() - 1));
-    Ok(Ready {
+    let mut start = machine.start();
+    set_start(&mut start, &call.start)?;
+    let ready = Ready {
         compiled,
+        sources,
         machine,
         period,
-    })
+        start,
+    };
+    Ok((ready, cartesian))
 }
 
 /// Adds variables of differentiation, in the order of declarations.
@@ -208,8 +261,7 @@ pub fn differentiate(
 /// The search that the call describes.
 fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
     let machine = &ready.machine;
-    let mut start = machine.start();
-    set_start(&mut start, &call.start)?;
+    let start = ready.start.clone();
     let period = match (&ready.period, call.near) {
         (Some((formula, output)), _) => Period::Given(runs::period_of(
             machine, &start, *output, "--period", formula,

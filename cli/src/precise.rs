@@ -61,7 +61,9 @@ fn prepare(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
         )));
     }
     let dag = Dag::new();
-    let compiled = Reading::open(&call.spec)?.compile(&dag)?;
+    let compiled = Reading::open(&call.spec)?
+        .with_values(&call.start)
+        .compile(&dag)?;
     let machine = reading::machine(&compiled, &call.start)?;
     reading::check_parameters(&machine)?;
     let mut start = machine.start();

@@ -7,7 +7,7 @@ use lagrangian::{InputLaw, Machine, Simulation, State};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::SeriesText;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::model::{Coordinate, Model};
+use lagrangian_spec::model::{Coordinate, Model, Name};
 use lagrangian_spec::resolve::Formula;
 use lagrangian_spec::source::{Files, ReadTexts, Recorder, SourceId, Sources};
 use lagrangian_spec::unit::{Unit, integral_name, rate_unit};
@@ -21,6 +21,7 @@ use crate::failure::Failure;
 use crate::host::Specs;
 use crate::inputs;
 use crate::output::{Destination, keep_apart};
+use crate::placed::Placed;
 
 /// A spec that was read, with its diagnostics.
 pub struct Reading {
@@ -39,6 +40,17 @@ pub struct Reading {
     pub report: Report,
     /// Whether the warnings of this spec have been printed.
     is_warned: bool,
+    /// The values that the call gives.
+    values: Vec<Given>,
+    /// A value that does not fit its declaration.
+    misfit: Option<Box<Placed>>,
+}
+
+/// A value that a call gives to a name of the spec.
+#[derive(Clone, Debug)]
+struct Given {
+    option: &'static str,
+    set: Assignment,
 }
 
 /// A machine that was compiled for a run.
@@ -82,6 +94,8 @@ impl Reading {
             sources: Sources::new(),
             report: Report::new(),
             is_warned: false,
+            values: Vec::new(),
+            misfit: None,
         })
     }
 
@@ -97,7 +111,24 @@ impl Reading {
             sources: Sources::new(),
             report: Report::new(),
             is_warned: self.is_warned,
+            values: self.values.clone(),
+            misfit: None,
         }
+    }
+
+    /// This reading with the values that the call gives to parameters, inputs, coordinates and rates, so that one that does not fit its
+    /// declaration is an error that shows it.
+    pub fn with_values(mut self, start: &call::Start) -> Reading {
+        let lists = [
+            ("--set", &start.parameters),
+            ("--start", &start.coordinates),
+            ("--rate", &start.rates),
+        ];
+        for (option, list) in lists {
+            let given = list.iter().cloned();
+            self.values.extend(given.map(|set| Given { option, set }));
+        }
+        self
     }
 
     /// A variant of a spec that has an input for each of its coordinates, a generalized force on it.
@@ -164,7 +195,50 @@ impl Reading {
             report,
         );
         *files = recorder.read;
-        model
+        let model = model?;
+        self.misfit = self
+            .values
+            .iter()
+            .find_map(|given| self.misfit_of(given, &model));
+        self.misfit.is_none().then_some(model)
+    }
+
+    /// The error of a value that does not fit the declaration of its name; `None` also where the spec does not have the name.
+    fn misfit_of(&self, Given { option, set }: &Given, model: &Model<'_>) -> Option<Box<Placed>> {
+        let is_named = |name: &Name| {
+            let name = name.to_string();
+            let member = name.strip_prefix(&set.name);
+            member.is_some_and(|index| index.is_empty() || index.starts_with('['))
+        };
+        let (unit, span) = if *option == "--set" {
+            let parameters = model.parameters.iter();
+            let parameters = parameters.map(|of| (&of.name, &of.unit_text, of.span));
+            let inputs = model.inputs.iter();
+            let mut all = parameters.chain(inputs.map(|of| (&of.name, &of.unit_text, of.span)));
+            let (_, unit, span) = all.find(|(name, ..)| is_named(name))?;
+            (unit.clone(), span)
+        } else {
+            // States of first order have units of their own, and are left to the check of all values.
+            let mut coordinates = model.coordinates.iter().filter(|of| of.rate.is_none());
+            let coordinate = coordinates.find(|of| is_named(&of.name))?;
+            let unit = &coordinate.unit_text;
+            let unit = match *option {
+                "--start" => unit.clone(),
+                _ => format!("({unit})/s"),
+            };
+            (unit, coordinate.span)
+        };
+        let message = set.value(option, &unit).err()?;
+        let note = match *option {
+            "--rate" => "the coordinate is declared here",
+            _ => "declared here",
+        };
+        Some(Box::new(Placed {
+            message,
+            note: Some(note.to_owned()),
+            span,
+            sources: self.sources.clone(),
+        }))
     }
 
     /// Adds the formulas that drive inputs, as outputs after those of the spec.
@@ -352,8 +426,11 @@ impl Reading {
         keep_apart(destinations, &read)
     }
 
-    /// The diagnostics as a failure.
+    /// The diagnostics as a failure, or the value of the call that does not fit its declaration.
     pub fn failure(self) -> Failure {
+        if let Some(misfit) = self.misfit {
+            return Failure::PlacedCall(misfit);
+        }
         Failure::Spec(Box::new((self.report, self.sources)))
     }
 }

@@ -566,7 +566,7 @@ fn read(
         given: given.map(|set| set.name.clone()).collect(),
         json: runs.json,
     };
-    let mut reading = Reading::open(&spec)?;
+    let mut reading = Reading::open(&spec)?.with_values(&options.start);
     let laws = reading.drive(&written)?;
     match looks {
         SampleInstants::Crossing(formula, _, level) => {

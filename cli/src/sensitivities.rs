@@ -53,10 +53,10 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     output::keep_document_apart(all.iter().copied(), call.spec.json)?;
     keep_apart(all.iter().copied(), &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
-    let reading = Reading::open(&call.spec)?;
+    let reading = Reading::open(&call.spec)?.with_values(&call.start);
     let wanted = call::names_of(&call.by).map_err(Failure::Call)?;
     let mut cartesian = None;
-    let compiled = modes::compiled_with(reading, &dag, all, "sensitivities", |model| {
+    let (compiled, sources) = modes::compiled_with(reading, &dag, all, "sensitivities", |model| {
         cartesian = model.cartesian.take();
         let n = model.coordinates.len();
         differentiate(&mut model.derivatives, Variable::of_state(n));
@@ -85,7 +85,8 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
         None => None,
     };
     let machines = (&machine, chart.as_ref());
-    let (times, columns) = run_with_derivatives(call, machines, &start, &variations, &observed)?;
+    let ran = run_with_derivatives(call, machines, &start, &variations, &observed);
+    let (times, columns) = ran.map_err(|failure| failure.placed(&compiled.model, &sources))?;
     if let Some(file) = &files[0] {
         let columns = columns.iter().map(|column| {
             (

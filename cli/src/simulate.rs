@@ -5,8 +5,8 @@ use std::iter;
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{
-    Ending, Error, LEAST_RELATIVE_TOLERANCE, Machine, MethodChoice, Simulation, State, System,
-    Warning,
+    Ending, Error, LEAST_RELATIVE_TOLERANCE, Machine, MethodChoice, MethodReason, Simulation,
+    State, System, Warning,
 };
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
@@ -279,7 +279,7 @@ impl<'d> Prepared<'d> {
         (files, written): (&Files, &[(String, InputArgument)]),
         (mut method, tolerance): (&'static Method, f64),
     ) -> Result<Prepared<'d>, Failure> {
-        let mut reading = Reading::open(&call.spec)?;
+        let mut reading = Reading::open(&call.spec)?.with_values(&call.start);
         let laws = reading.drive(written)?;
         let formulas = reading.formulas();
         let compiled = reading.compile_in_charts(dag, files.all(), ChartUse::Required);
@@ -719,6 +719,26 @@ fn document(
     document
 }
 
+/// Prints how long a run went by series while its contacts were open, and otherwise.
+fn print_flights(run: &Run) {
+    let choices = run.choices();
+    let ends = (choices.iter().skip(1).map(|choice| choice.t)).chain([run.end().t]);
+    let first = choices
+        .iter()
+        .position(|choice| std::ptr::eq(choice.method, &TAYLOR));
+    let (mut in_series, mut otherwise) = (0.0, 0.0);
+    for (choice, end) in choices.iter().zip(ends).skip(first.unwrap_or(0)) {
+        if std::ptr::eq(choice.method, &TAYLOR) {
+            in_series += end - choice.t;
+        } else {
+            otherwise += end - choice.t;
+        }
+    }
+    output::line(format_args!(
+        "  taylor while all contacts were open, {in_series:.6} s; dop853 while one was closed, {otherwise:.6} s"
+    ));
+}
+
 fn print_summary(
     call: &call::Simulate,
     prepared: &Prepared<'_>,
@@ -739,8 +759,12 @@ fn print_summary(
         statistics.steps, statistics.rejected, statistics.evaluations, statistics.seconds
     ));
     // If stiffness was never found, the choice of methods is not mentioned.
-    if run.choices().len() > 1 {
-        for choice in run.choices() {
+    let follows_contacts =
+        |reason: &MethodReason| matches!(reason, MethodReason::Open | MethodReason::Closed);
+    let (with_contacts, others): (Vec<&MethodChoice>, Vec<_>) =
+        (run.choices().iter()).partition(|choice| follows_contacts(&choice.reason));
+    if others.len() > 1 {
+        for choice in others {
             output::line(format_args!(
                 "  {} from t = {} s: {}",
                 choice.method.tableau.name,
@@ -748,6 +772,9 @@ fn print_summary(
                 choice.reason
             ));
         }
+    }
+    if !with_contacts.is_empty() {
+        print_flights(run);
     }
     if !call.inputs.is_empty() {
         output::line(format_args!("  inputs"));

@@ -103,6 +103,7 @@ pub struct GrainCrusher<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
+        let R_minus_r1 = self.R - self.r1;
         let rho_minus_r2_minus_delta = self.rho - self.r2 - self.delta;
         let t0 = self.rho + self.r2;
         let e_omega = self.omega * self.e;
@@ -111,7 +112,6 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
         let m0_x0 = self.m0 * self.x0;
         let m_plus_m0 = self.m + self.m0;
         let k0 = m1_plus_m2 + m_plus_m0;
-        let R_minus_r1 = self.R - self.r1;
         let k1 = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
         let k7 = S::ONE / m_plus_m0;
         let k4 = k1 - k7 * (m0_y0 * m0_y0) - k7 * (m0_x0 * m0_x0);
@@ -127,7 +127,7 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
         let R_over_r1 = self.R * t4;
         let k12 = R_minus_r1 * t4;
         let k14 = self.m2 * rho_minus_r2_minus_delta;
-        let k15 = m1_plus_m2 * R_minus_r1;
+        let k15 = R_minus_r1 * m1_plus_m2;
         let t5 = self.J2 * rho_over_r2;
         let t6 = rho_over_r2 * t5;
         let t7 = R_over_r1 * t6 + self.J1 * R_over_r1;
@@ -190,6 +190,7 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
             r1: self.r1,
             rho: self.rho,
             r2: self.r2,
+            R_minus_r1,
             rho_minus_r2_minus_delta,
             two_rho_over_delta,
             e_omega,
@@ -203,7 +204,6 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
             m0_y0,
             m0_x0,
             k0,
-            R_minus_r1,
             m0_e_omega,
             k1,
             minus_m2,
@@ -351,6 +351,8 @@ pub struct Prepared<S = f64> {
     rho: S,
     /// `r2`
     r2: S,
+    /// `R - r1`
+    R_minus_r1: S,
     /// `rho - r2 - delta`
     rho_minus_r2_minus_delta: S,
     /// `2*rho/delta`
@@ -377,8 +379,6 @@ pub struct Prepared<S = f64> {
     m0_x0: S,
     /// `m + m0 + m1 + m2`
     k0: S,
-    /// `R - r1`
-    R_minus_r1: S,
     /// `m0*e*omega`
     m0_e_omega: S,
     /// `J + m0*x0^2 + m0*y0^2`
@@ -427,17 +427,17 @@ pub struct Prepared<S = f64> {
     k13: S,
     /// `m2*(rho - r2 - delta)`
     k14: S,
-    /// `(m1 + m2)*(R - r1)`
+    /// `(R - r1)*(m1 + m2)`
     k15: S,
     /// `(R - r1)*(J1*R/r1 + J2*R*rho^2/r1/r2^2)/r1`
     k16: S,
     /// `J2*R*rho*(rho + r2)/r1/r2^2`
     k17: S,
-    /// `J2*rho*(rho + r2)*(R - r1)/r1/r2^2`
+    /// `J2*rho*(R - r1)*(rho + r2)/r1/r2^2`
     k18: S,
-    /// `m2*(rho - r2 - delta)*(R - r1)`
+    /// `m2*(R - r1)*(rho - r2 - delta)`
     k19: S,
-    /// `(R - r1)*(J1*(R - r1)/r1 + J2*rho^2*(R - r1)/r1/r2^2)/r1 + (m1 + m2)*(R - r1)^2`
+    /// `(R - r1)*(J1*(R - r1)/r1 + J2*rho^2*(R - r1)/r1/r2^2)/r1 + (R - r1)^2*(m1 + m2)`
     k20: S,
     /// `J2*(rho + r2)^2/r2^2 + m2*(rho - r2 - delta)^2`
     k21: S,
@@ -867,103 +867,103 @@ fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let (sin_t0, cos_t0) = circular[3];
     let t1 = n(p.yc) * theta;
     let t2 = theta * n(p.xc);
-    let t3 = theta_dot * n(p.yc);
-    let t4 = theta_dot * n(p.xc);
-    let t5 = phi2_dot * (phi2_dot * n(p.rho_minus_r2_minus_delta));
-    let t6 = phi1_dot * phi1_dot;
+    let t3 = phi1_dot * phi1_dot;
+    let t4 = theta_dot * n(p.yc);
+    let t5 = theta_dot * n(p.xc);
+    let t6 = t3 * n(p.R_minus_r1);
     let t7 = n(p.omega).product_error(n(t));
     let t8 = theta_dot * theta_dot;
-    let t9 = n(p.bx).mul_add(t3 + x_dot, n(p.cx) * (t1 + x));
-    let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
-    let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
-    let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
-    let t13 = sin_phi1 * n(p.k15);
-    let t14 = cos_phi1 * n(p.k15);
-    let t15 = t6 * cos_phi1;
-    let t16 = sin_theta.mul_add(n(p.m0_x0), cos_theta * n(p.m0_y0));
-    let t17 = cos_theta.mul_sub(n(p.m0_x0), sin_theta * n(p.m0_y0));
+    let t9 = phi2_dot * (phi2_dot * n(p.rho_minus_r2_minus_delta));
+    let t10 = t3 * n(p.k13);
+    let t11 = n(p.bx).mul_add(t4 + x_dot, n(p.cx) * (t1 + x));
+    let t12 = n(p.bx).mul_add(x_dot - t4, n(p.cx) * (x - t1));
+    let t13 = n(p.by).mul_add(t5 + y_dot, n(p.cy) * (t2 + y));
+    let t14 = n(p.by).mul_add(y_dot - t5, n(p.cy) * (y - t2));
+    let t15 = sin_phi1 * n(p.k15);
+    let t16 = cos_phi1 * n(p.k15);
+    let t17 = sin_theta.mul_add(n(p.m0_x0), cos_theta * n(p.m0_y0));
+    let t18 = cos_theta.mul_sub(n(p.m0_x0), sin_theta * n(p.m0_y0));
     // Eliminates x from row phi1: l[phi1, x].
-    let t18 = n(p.k23) * t13;
+    let t19 = n(p.k23) * t15;
     // Eliminates y from row phi1: l[phi1, y].
-    let t19 = n(p.k23) * t14;
-    // Eliminates x from row theta: l[theta, x].
     let t20 = n(p.k23) * t16;
+    let t21 = t9.mul_add(cos_phi2, t6 * cos_phi1);
+    // Eliminates x from row theta: l[theta, x].
+    let t22 = n(p.k23) * t17;
     // Eliminates y from row theta: l[theta, y].
-    let t21 = n(p.k23) * t17;
-    let t22 = t6 * sin_phi1;
-    let t23 = t15.mul_add(n(p.R_minus_r1), t5 * cos_phi2);
-    let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k16)));
-    let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
-    let t26 = n(p.e_omega2).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
-    let t27 = n(p.R_minus_r1).mul_add(t22, t5 * sin_phi2);
-    let t28 = t23.mul_add(n(p.m2), t15 * n(p.k13));
+    let t23 = n(p.k23) * t18;
+    let t24 = t9.mul_add(sin_phi2, t6 * sin_phi1);
+    let t25 = t18.mul_add(t20, t17.mul_add(t19, n(p.k16)));
+    let t26 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
+    let t27 = n(p.e_omega2).mul_add(t7.mul_add(cos_t0, sin_t0), t26);
+    let t28 = t21.mul_add(n(p.m2), cos_phi1 * t10);
+    let t29 = sin_phi2 * n(p.k14);
     // Row theta: pivot d[theta].
-    let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k22)));
-    let t30 = sin_phi2 * n(p.k14);
+    let t30 = t18.neg_mul_add(t23, t17.neg_mul_add(t22, n(p.k22)));
     let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
     let t32 = n(p.e_omega2).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
     let t33 = cos_phi2 * n(p.k14);
-    let t34 = n(p.m2).mul_add(t27, n(p.k13) * t22);
-    let t35 = N::ONE / t29;
+    let t34 = n(p.m2).mul_add(t24, sin_phi1 * t10);
     // Eliminates x from row phi2: l[phi2, x].
-    let t36 = n(p.k23) * t30;
-    let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
+    let t35 = n(p.k23) * t29;
+    let t36 = N::ONE / t30;
+    let t37 = t32.mul_add(n(p.m0), t28 - (t12 + t11));
     // Eliminates y from row phi2: l[phi2, y].
     let t38 = n(p.k23) * t33;
-    let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
-    let t40 = t32.mul_sub(n(p.m0_y0), n(p.m0_x0) * t26);
-    let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
-    let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k17)));
+    let t39 = n(p.yc).mul_add(t11 - t12, n(p.xc) * (t13 - t14));
+    let t40 = t32.mul_sub(n(p.m0_y0), n(p.m0_x0) * t27);
+    let t41 = n(p.m0).mul_add(t27, t34 - (t14 + t13));
+    let t42 = t18.mul_add(t38, t17.mul_add(t35, n(p.k17)));
     let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
-    let t44 = n(p.m0_y0).mul_add(t26, t32 * n(p.m0_x0));
+    let t44 = n(p.m0_y0).mul_add(t27, t32 * n(p.m0_x0));
+    let t45 = n(p.k14) * cos_phi2.mul_sub(t24, sin_phi2 * t21);
     // Eliminates theta from row phi1: l[phi1, theta].
-    let t45 = t35 * t24;
+    let t46 = t36 * t25;
     // Eliminates theta from row phi2: l[phi2, theta].
-    let t46 = t35 * t42;
-    let t47 = n(p.k14) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
+    let t47 = t36 * t42;
     let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
     let t49 = t43.mul_add(n(p.k19), n(p.k18));
     let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
     // Row theta: right-hand side z[theta].
-    let t51 = t50 + t21.mul_sub(t41, t37 * t20);
-    let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k20)));
+    let t51 = t50 + t23.mul_sub(t41, t37 * t22);
+    let t52 = t16.neg_mul_add(t20, t15.neg_mul_add(t19, n(p.k20)));
     // Row phi1: pivot d[phi1].
-    let t53 = t24.neg_mul_add(t45, t52);
-    let t54 = n(p.R_minus_r1).mul_add(t48, t37 * t18);
-    let t55 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
-    let t56 = N::ONE / t53;
-    let t57 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
+    let t53 = t25.neg_mul_add(t46, t52);
+    let t54 = n(p.R_minus_r1).mul_add(t48, t37 * t19);
+    let t55 = t25.neg_mul_add(t47, t49 - t16.mul_add(t38, t15 * t35));
+    let t56 = t38.neg_mul_add(t41, t37.mul_add(t35, t45));
+    let t57 = t33.neg_mul_add(t38, t29.neg_mul_add(t35, n(p.k21)));
+    let t58 = N::ONE / t53;
     // Row phi1: right-hand side z[phi1].
-    let t58 = t45.neg_mul_add(t51, t19.neg_mul_add(t41, t54));
-    let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k21)));
+    let t59 = t46.neg_mul_add(t51, t20.neg_mul_add(t41, t54));
     // Eliminates phi1 from row phi2: l[phi2, phi1].
-    let t60 = t56 * t55;
+    let t60 = t58 * t55;
     // Row phi2: pivot d[phi2].
-    let t61 = t55.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
+    let t61 = t55.neg_mul_add(t60, t42.neg_mul_add(t47, t57));
     // Row phi2: right-hand side z[phi2].
-    let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t57)) / t61;
+    let phi2_ddot = t60.neg_mul_add(t59, t47.neg_mul_add(t51, t56)) / t61;
     // Back substitution: a[phi1].
-    let phi1_ddot = t60.neg_mul_add(phi2_ddot, t56 * t58);
-    let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
-    let t63 = t45 * phi1_ddot;
-    let t64 = t36.mul_add(phi2_ddot, n(p.k23) * t37);
+    let phi1_ddot = t60.neg_mul_add(phi2_ddot, t58 * t59);
+    let t62 = t47.neg_mul_add(phi2_ddot, t36 * t51);
+    let t63 = t46 * phi1_ddot;
+    let t64 = t35.mul_add(phi2_ddot, n(p.k23) * t37);
     let t65 = t38.neg_mul_add(phi2_ddot, n(p.k23) * t41);
     // Back substitution: a[theta].
     let t66 = t62 - t63;
     let t67 = t66.mul_add(n(p.R_over_r1), phi1_ddot * n(p.k12));
-    let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
+    let x_ddot = t22.neg_mul_add(t66, t19.mul_add(phi1_ddot, t64));
     // Back substitution: a[y].
-    let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
+    let y_ddot = t23.mul_add(t66, t20.neg_mul_add(phi1_ddot, t65));
     let theta_ddot = t63 - t62;
     let zero = N::ZERO;
     let theta1_ddot = -t67;
     let theta2_ddot = t67.mul_add(n(p.rho_over_r2), phi2_ddot * n(p.k11));
-    let sound = PIVOTS_1.hold(t29, n(p.k22))
+    let sound = PIVOTS_1.hold(t30, n(p.k22))
         & PIVOTS_1.hold(t53, n(p.k20))
         & PIVOTS_1.hold(t61, n(p.k21))
         & theta2_ddot.is_finite();
     if !sound {
-        let pivots = [(2, t29, n(p.k22)), (4, t53, n(p.k20)), (7, t61, n(p.k21))];
+        let pivots = [(2, t30, n(p.k22)), (4, t53, n(p.k20)), (7, t61, n(p.k21))];
         PIVOTS_1.check(pivots)?;
     }
     let accelerations = [
@@ -1444,10 +1444,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
         grain_spin: "grain_spin" "rad/s";
     ]
     prepared Prepared {
-        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, r1, rho, r2,
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, r1, rho, r2, R_minus_r1,
         rho_minus_r2_minus_delta, two_rho_over_delta, e_omega, J0_omega2, half_cx, half_cy, half_bx,
-        half_by, e_omega2, m1_plus_m2, m0_y0, m0_x0, k0, R_minus_r1, m0_e_omega, k1, minus_m2, k2,
-        minus_R, m_plus_m0, k3, k4, k5, k6, k7, inverse_m2, inverse_m1, k8, k9, r1_rho_over_J1,
+        half_by, e_omega2, m1_plus_m2, m0_y0, m0_x0, k0, m0_e_omega, k1, minus_m2, k2, minus_R,
+        m_plus_m0, k3, k4, k5, k6, k7, inverse_m2, inverse_m1, k8, k9, r1_rho_over_J1,
         r1_squared_over_J1, k10, rho_over_r2, k11, R_over_r1, k12, k13, k14, k15, k16, k17, k18,
         k19, k20, k21, k22, k23,
     }

@@ -50,17 +50,18 @@ class Modes:
     """The equilibrium, or a state of the steady motion."""
 
     def __init__(self, machine: Any, found: Mapping[str, Any]) -> None:
-        n = len(machine.coordinates)
+        # Those of the other chart where the spec's have no modes.
+        self._names = tuple(found["coordinates"] or machine.coordinates)
+        n = len(self._names)
         self.eigenvalues = found["re"] + 1j * found["im"]
         self.frequencies = found["im"] / (2 * np.pi)
         self.damping = found["damping"]
         self.kinds = tuple(found["kinds"])
         self.shapes = (found["shapes_re"] + 1j * found["shapes_im"]).reshape(-1, n).T
         self.error = found["error"]
-        self.equilibrium = _state(machine, 0.0, found["q"], found["v"])
+        self.equilibrium = _state(self._names, 0.0, found["q"], found["v"])
         for array in (self.eigenvalues, self.frequencies, self.damping, self.shapes, self.error):
             array.flags.writeable = False
-        self._names = tuple(machine.coordinates)
 
     def __len__(self) -> int:
         return len(self.kinds)
@@ -119,7 +120,8 @@ class Linear:
             array = found[name].reshape(shapes.get(name, (-1,)))
             array.flags.writeable = False
             setattr(self, name, array)
-        self.at = _state(machine, t, found["q"], found["v"])
+        # Those of the other chart where the spec's have no linear model.
+        self.at = _state(tuple(found["coordinates"] or machine.coordinates), t, found["q"], found["v"])
         self.left_out = tuple(found["left_out"])
         self._poles: np.ndarray = found["poles_re"] + 1j * found["poles_im"]
         self._zeros: np.ndarray = found["zeros_re"] + 1j * found["zeros_im"]
@@ -282,8 +284,8 @@ def _csv(rows: Sequence[str], columns: Sequence[str], matrix: np.ndarray) -> str
     return "\n".join(lines) + "\n"
 
 
-def _state(machine: Any, t: float, q: np.ndarray, v: np.ndarray) -> State:
-    return State(t, Named(q, machine.coordinates), rates(v, machine.coordinates))
+def _state(names: Tuple[str, ...], t: float, q: np.ndarray, v: np.ndarray) -> State:
+    return State(t, Named(q, names), rates(v, names))
 
 
 def _start(machine: Any, start: Any, rate: Any, t: float) -> Tuple[float, List[float], List[float]]:

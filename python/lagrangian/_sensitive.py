@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from typing import Any, List, Optional, Sequence, Tuple, Union
+from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -79,6 +79,9 @@ def sensitivities(
     the spec kept, and its derivatives obey the constraints from there on. Nothing is projected on the way: if errors of steps move
     the motion or its derivatives off the constraints by more than 1e-5 of their values, a ``ValueError`` is raised, as it is for
     constraints that follow from others.
+
+    Derivatives are continued across impacts and other changes of contacts, and where the spec names ``charts`` the motion is
+    computed in the Cartesian ones, as by ``lagrangian sensitivities``; both only from ``t0 = 0`` and at equal intervals.
     """
     from ._linear import _start
 
@@ -101,9 +104,20 @@ def sensitivities(
             varied.append(inner)
     if not by or len(set(by)) < len(by):
         raise ValueError("by must name at least one variable, and each once")
-    machine = type(self)._with(_native.rebuild(_variant(self, varied)), *self._values)
     given = _start(self, start, rate, t0)
     until = float(until)
+    collides, is_charted = self._program.is_continued
+    is_even = at is None and given[0] == 0.0
+    if collides and not is_even:
+        raise ValueError("derivatives across changes of contacts are computed from t0 = 0, at equal intervals: leave `t0` and `at` out")
+    if collides or (is_charted and is_even):
+        return _continued(self, by, given, until, every, {
+            "tolerance": repr(float(tolerance)),
+            "method": method,
+            "max-steps": str(int(max_steps)),
+            "keep": None if keep is None else ",".join(keep),
+        })
+    machine = type(self)._with(_native.rebuild(_variant(self, varied)), *self._values)
     if at is not None:
         if every is not None:
             raise ValueError("instants are kept by `every` or by `at`, not by both")
@@ -124,6 +138,39 @@ def sensitivities(
         machine, kinds, given, instants.tolist(), until, float(tolerance), method, int(max_steps), kept
     )
     return Sensitivities(self, by, instants, arrays)
+
+
+def _continued(
+    machine: Any,
+    by: Tuple[str, ...],
+    start: Tuple[float, List[float], List[float]],
+    until: float,
+    every: Optional[float],
+    options: Mapping[str, Optional[str]],
+) -> Sensitivities:
+    """The result of the command, which continues derivatives across changes of contacts and maps them between charts."""
+    from ._command import answer, settings
+
+    names = machine.coordinates
+    given: List[str] = settings(machine)
+    for name, q, v in zip(names, start[1], start[2]):
+        state = state_of(name)
+        given.append(f"--start={name}={q!r}")
+        given.append(f"--rate={name}={v!r}" if state is None else f"--start={state}={v!r}")
+    rows = (*names, *(state_of(name) or f"der({name})" for name in names))
+    given += [f"--until={until!r}", f"--by={','.join(by)}", f"--of={','.join(rows)}"]
+    if every is not None:
+        given.append(f"--every={float(every)!r}")
+    given += [f"--{name}={value}" for name, value in options.items() if value]
+    document = answer(machine, "sensitivities", given)
+    t = np.array(document["t"])
+    (k, n, s) = (len(t), len(names), len(by))
+    values = np.array([column["values"] for column in document["values"]], dtype=float).reshape(2, n, k)
+    # A column for each row of the state and each variable; the arrays have all coordinates for each variable.
+    slopes = np.array([column["values"] for column in document["derivatives"]], dtype=float).reshape(2, n, s, k)
+    q, v = np.moveaxis(values, 2, 1)
+    by_q, by_v = np.transpose(slopes, (0, 3, 2, 1))
+    return Sensitivities(machine, by, t, [np.ascontiguousarray(array) for array in (q, v, by_q, by_v)])
 
 
 def _variant(machine: Any, names: Sequence[str]) -> str:

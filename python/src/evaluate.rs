@@ -394,7 +394,7 @@ pub fn linearize<'py>(
         Ok(()) => Ok((PyArray1::from_vec(py, by_q), PyArray1::from_vec(py, by_v))),
         Err(singular) if matches!(singular.at, Pivot::NotDifferentiated(_)) => {
             Err(PyValueError::new_err(format!(
-                "the accelerations of a machine with contacts that stick, slide or open have no derivatives: `{}`",
+                "the accelerations of a machine with contacts that stick or slide have no derivatives: `{}`",
                 singular.name(&*system)
             )))
         }

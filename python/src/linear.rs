@@ -10,6 +10,7 @@ use lagrangian_linear::spectrum::damping;
 use lagrangian_linear::steady::{self, Options};
 use lagrangian_linear::zeros::zeros;
 use lagrangian_linear::{Complex, DMatrix};
+use lagrangian_sweep::charts::Charts;
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -32,26 +33,15 @@ type Steady = (Vec<bool>, Vec<bool>);
 type Labels = Vec<(String, String)>;
 
 impl Machine {
-    /// The machine with these values of its inputs. Machines with friction or contacts are refused, because they
-    /// have no linearization.
+    /// The machine with these values of its inputs. Machines with guided contacts are refused, because sticking friction has no
+    /// linearization.
     fn linear(&self, py: Python<'_>, inputs: &[f64]) -> PyResult<InterpretedMachine> {
         self.check_parameters(py)?;
         let system = self.system();
-        for (count, what) in [
-            (
-                system.contacts().len(),
-                "sticking friction cannot be linearized: a machine with `sliding`",
-            ),
-            (
-                system.unilateral_contacts().len(),
-                "collisions cannot be linearized: a machine with `contacts`",
-            ),
-        ] {
-            if count > 0 {
-                return Err(PyValueError::new_err(format!(
-                    "{what} has no modes and no linear model"
-                )));
-            }
+        if system.contacts().len() > 0 {
+            return Err(PyValueError::new_err(
+                "sticking friction cannot be linearized: a machine with `sliding` has no modes and no linear model",
+            ));
         }
         let mut machine = self.machine.clone();
         for (slot, value) in self.machine.program().inputs.iter().zip(inputs) {
@@ -59,6 +49,37 @@ impl Machine {
             set.map_err(|unknown| PyValueError::new_err(unknown.to_string()))?;
         }
         Ok(machine)
+    }
+}
+
+/// A machine in the Cartesian coordinates that its spec names, with a start in these and the names of its coordinates.
+type InCartesian = (InterpretedMachine, Start, Vec<String>);
+
+impl Machine {
+    /// This machine with these values of its inputs and a start in the other chart; `None` if the spec names none, if a distance is negative,
+    /// or if a polar coordinate moves steadily.
+    fn linear_in_cartesian(
+        &self,
+        inputs: &[f64],
+        (t, q, v): &Start,
+        steady: Option<&Steady>,
+    ) -> Option<InCartesian> {
+        let (mut machine, points) = self.in_cartesian()?;
+        for (slot, value) in self.machine.program().inputs.iter().zip(inputs) {
+            machine.set(&slot.name.to_string(), *value).ok()?;
+        }
+        let is_steady = |place: &usize| steady.is_some_and(|(moves, _)| moves[*place]);
+        if points.places().iter().flatten().any(is_steady) {
+            return None;
+        }
+        let mut stated = self.machine.start();
+        stated.t = *t;
+        stated.q.values.clone_from(q);
+        stated.v.values.clone_from(v);
+        let (_, start) = Charts::begin(points, machine.start(), &stated).ok()?;
+        let names = machine.program().coordinates.iter();
+        let names = names.map(|slot| slot.name.to_string()).collect();
+        Some((machine, (start.t, start.q.values, start.v.values), names))
     }
 }
 
@@ -134,10 +155,23 @@ pub fn modes<'py>(
     inputs: Vec<f64>,
     steady: Steady,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let machine = machine.linear(py, &inputs)?;
-    let motion = py.detach(|| find_motion(&machine, start, steady));
-    let motion = motion.map_err(PyValueError::new_err)?;
+    let of = machine;
+    let machine = of.linear(py, &inputs)?;
+    let found = py.detach(|| {
+        let found = find_motion(&machine, start.clone(), steady.clone());
+        found.map(|motion| (motion, None)).or_else(|why| {
+            // As about the centre of polar coordinates.
+            let other = of.linear_in_cartesian(&inputs, &start, Some(&steady));
+            let Some((machine, start, names)) = other else {
+                return Err(why);
+            };
+            let found = find_motion(&machine, start, steady);
+            found.map(|motion| (motion, Some(names))).map_err(|_| why)
+        })
+    });
+    let (motion, names) = found.map_err(PyValueError::new_err)?;
     let all = PyDict::new(py);
+    all.set_item("coordinates", names)?;
     let modes = &motion.modes.modes;
     let lambdas: Vec<Complex<f64>> = modes.iter().map(|mode| mode.lambda).collect();
     let shapes: Vec<Complex<f64>> = modes.iter().flat_map(|mode| mode.shape.clone()).collect();
@@ -170,7 +204,8 @@ pub fn linear_model<'py>(
     steady: Option<Steady>,
     wanted: (Vec<usize>, Vec<(String, usize)>),
 ) -> PyResult<Bound<'py, PyDict>> {
-    let machine = machine.linear(py, &inputs)?;
+    let of = machine;
+    let machine = of.linear(py, &inputs)?;
     let outputs = wanted.1.iter().map(|(kind, k)| match kind.as_str() {
         "coordinate" => Ok(Observed::Coordinate(*k)),
         "rate" => Ok(Observed::Rate(*k)),
@@ -183,25 +218,42 @@ pub fn linear_model<'py>(
         outputs: outputs.collect::<PyResult<_>>()?,
         inputs: wanted.0,
     };
-    let made = py.detach(|| -> Result<_, String> {
+    let model_of = |machine: &InterpretedMachine, start: Start| -> Result<Model, String> {
         let why = |none: NoModel| none.in_words(&machine.prepare(), OPTIONS);
-        let model = match steady {
+        match steady.clone() {
             Some(steady) => {
-                let motion = find_motion(&machine, start, steady)?;
-                model::along(&machine, &motion, &request).map_err(why)?
+                let motion = find_motion(machine, start, steady)?;
+                model::along(machine, &motion, &request).map_err(why)
             }
             None => {
                 let t = start.0;
-                let (q, v) = on_constraints(&machine, start)?;
-                model::about(&machine, (t, &q, &v), &request).map_err(why)?
+                let (q, v) = on_constraints(machine, start)?;
+                model::about(machine, (t, &q, &v), &request).map_err(why)
             }
-        };
+        }
+    };
+    // Outputs of the spec are the same in both charts; all coordinates are those of the chart.
+    let all_coordinates = (0..of.dimension()).map(Observed::Coordinate);
+    let is_of_spec = |of: &Observed| matches!(of, Observed::Output(_) | Observed::Multiplier(_));
+    let may_change = request.outputs.iter().all(is_of_spec)
+        || request.outputs.iter().copied().eq(all_coordinates);
+    let made = py.detach(|| -> Result<_, String> {
+        let found = model_of(&machine, start.clone()).map(|model| (model, None));
+        let found = found.or_else(|why| {
+            let other = of.linear_in_cartesian(&inputs, &start, steady.as_ref());
+            let Some((machine, start, names)) = other.filter(|_| may_change) else {
+                return Err(why);
+            };
+            let found = model_of(&machine, start);
+            found.map(|model| (model, Some(names))).map_err(|_| why)
+        });
+        let (model, names) = found?;
         let none = || "the eigenvalues cannot be found".to_owned();
         let poles = poles(&model.a, &model.a_bounds).ok_or_else(none)?;
         let zeros = zeros(&model).ok_or_else(none)?;
-        Ok((model, poles, zeros))
+        Ok((model, poles, zeros, names))
     });
-    let (model, poles, zeros) = made.map_err(PyValueError::new_err)?;
+    let (model, poles, zeros, names) = made.map_err(PyValueError::new_err)?;
     let poles: Vec<Complex<f64>> = poles.iter().map(|pole| pole.lambda).collect();
     let Model {
         a,
@@ -221,6 +273,7 @@ pub fn linear_model<'py>(
         ..
     } = &model;
     let all = PyDict::new(py);
+    all.set_item("coordinates", names)?;
     for (name, matrix) in [("A", a), ("B", b), ("C", c), ("D", d), ("basis", basis)] {
         all.set_item(name, array(py, &flat(matrix)))?;
     }

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{Machine as _, System};
+use lagrangian_sweep::charts::ChartedPoints;
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -90,6 +91,25 @@ impl Machine {
             system: Some(free.unwrap_or_else(|| self.machine.prepare())),
             of: &self.systems,
         }
+    }
+
+    /// The machine with the same values in the Cartesian coordinates that its spec names, if it names any.
+    pub fn in_cartesian(&self) -> Option<(InterpretedMachine, &ChartedPoints)> {
+        let other = self.derived.cartesian()?;
+        let mut machine = other.machine.clone();
+        let parameters = self.derived.parameters.iter().map(|(name, ..)| name);
+        let parameters = parameters.zip(self.machine.parameter_values());
+        let inputs = self.derived.inputs.iter().map(|(name, ..)| name);
+        for (name, value) in parameters.chain(inputs.zip(&self.inputs.values)) {
+            machine.set(name, *value).ok()?;
+        }
+        let engine = if self.is_interpreted {
+            Engine::Interpreter
+        } else {
+            Engine::Auto
+        };
+        machine.set_engine(engine).ok()?;
+        Some((machine, &other.points))
     }
 
     pub fn dimension(&self) -> usize {

@@ -12,6 +12,7 @@ use lagrangian_spec::diagnostic::{Report, Severity};
 use lagrangian_spec::model::Model;
 use lagrangian_spec::resolve::Formula;
 use lagrangian_spec::source::{Disk, Files, Sources};
+use lagrangian_sweep::charts::ChartedPoints;
 use lagrangian_sweep::plan::{FileRecorder, RecordedFiles, SpecText};
 use lagrangian_symbolic::Dag;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
@@ -51,7 +52,19 @@ pub struct Derived {
     pub warnings: Vec<Told>,
     /// For each formula the index of its output.
     pub numbers: Vec<usize>,
+    /// For each fact that the spec assumes its text and its place in the spec: `swing.machine:7:14`.
+    pub assumptions: Vec<(String, String)>,
+    /// Whether the spec names Cartesian coordinates for polar ones.
+    has_charts: bool,
+    cartesian: OnceLock<Option<Cartesian>>,
     library: OnceLock<Option<Arc<Library>>>,
+}
+
+/// A machine in the Cartesian coordinates that its spec names.
+pub struct Cartesian {
+    pub machine: InterpretedMachine,
+    /// The points that are given in two charts.
+    pub points: ChartedPoints,
 }
 
 /// Why there is no program.
@@ -167,7 +180,16 @@ impl Derived {
                     diagnostics,
                 ));
             };
-            let derived = Arc::new(Derived::of(&compiled, text, formulas, diagnostics));
+            let mut derived = Derived::of(&compiled, text, formulas, diagnostics);
+            let stated = compiled.model.assumptions.iter();
+            derived.assumptions = stated
+                .map(|stated| {
+                    let (line, column) = sources.line_column(stated.span);
+                    let file = sources.name(stated.span.source);
+                    (stated.text.clone(), format!("{file}:{line}:{column}"))
+                })
+                .collect();
+            let derived = Arc::new(derived);
             remember(key, &derived);
             Ok(derived)
         };
@@ -240,7 +262,52 @@ impl Derived {
             machine,
             text,
             formulas,
+            assumptions: Vec::new(),
+            has_charts: !model.charts.is_empty(),
+            cartesian: OnceLock::new(),
             library: OnceLock::new(),
+        }
+    }
+
+    /// The machine in the Cartesian coordinates that the spec names, derived when it is first needed; `None` if the spec names none, or
+    /// if a formula contains a polar coordinate that they do not have.
+    pub fn cartesian(&self) -> Option<&Cartesian> {
+        if !self.has_charts {
+            return None;
+        }
+        let derive = || {
+            let made = self.with_model(|mut model, report| {
+                let points = ChartedPoints::of(&model);
+                let other = model.cartesian.take();
+                let other = other.filter(|model| model.uncharted.is_empty())?;
+                let compiled = Compiled::for_runs(model, report)?;
+                let other = Compiled::for_runs(*other, report)?;
+                compiled.check_chart(&other, report)?;
+                let machine = InterpretedMachine::new(other.program.clone());
+                Some((machine, points))
+            });
+            let (mut machine, points) = made.ok().flatten()?;
+            // Its constants were numbers when the model was made.
+            if let Ok(text) = self.text.of_series(true) {
+                machine = machine.with_series_on_demand(move || text.derive());
+            }
+            Some(Cartesian { machine, points })
+        };
+        self.cartesian.get_or_init(derive).as_ref()
+    }
+
+    /// The message of an error, followed by the place in the spec if that states its reason.
+    pub fn placed(&self, error: &lagrangian::Error) -> String {
+        let place = match error {
+            lagrangian::Error::AssumptionEnded { assumption, .. } => {
+                let mut stated = self.assumptions.iter();
+                stated.find(|(text, _)| text == assumption)
+            }
+            _ => None,
+        };
+        match place {
+            Some((_, place)) => format!("{error} ({place})"),
+            None => error.to_string(),
         }
     }
 
@@ -493,6 +560,13 @@ impl Program {
         let mut text = self.derived.text.clone();
         text.constants = constants;
         compile(py, text, Bases::Kept, Vec::new())
+    }
+
+    /// Whether derivatives of its motions are continued across changes of unilateral contacts, or mapped between charts.
+    #[getter]
+    fn is_continued(&self) -> [bool; 2] {
+        let program = self.derived.machine.program();
+        [!program.unilateral.is_empty(), self.derived.has_charts]
     }
 
     /// Names, units and docs of the parameters that follow from others.

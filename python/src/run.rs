@@ -5,6 +5,7 @@ use lagrangian::methods::Method;
 use lagrangian::{Ending, Solution, State, System};
 use lagrangian_cli::report::{CallSettings, Report, recording_refinement};
 use lagrangian_mechanics::Compiled;
+use lagrangian_sweep::charts::{self, Charts};
 use lagrangian_sweep::verdict;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -19,6 +20,8 @@ use crate::machine::Machine;
 pub struct Run {
     solution: Solution<InterpretedMachine, SharedLaw>,
     states: Vec<State<Named>>,
+    /// How the run is shown in the coordinates of the spec, if it is in others.
+    charts: Option<Charts>,
 }
 
 /// Time, coordinates and rates of k states, flat.
@@ -47,8 +50,22 @@ impl Run {
     pub fn new(
         solution: Solution<InterpretedMachine, SharedLaw>,
         states: Vec<State<Named>>,
+        charts: Option<Charts>,
     ) -> Run {
-        Run { solution, states }
+        Run {
+            solution,
+            states,
+            charts,
+        }
+    }
+
+    /// States of the run in the coordinates of the spec.
+    fn shown<'py>(&self, py: Python<'py>, states: &[State<Named>]) -> States<'py> {
+        let Some(charts) = &self.charts else {
+            return arrays(py, states);
+        };
+        let shown: Vec<State<Named>> = states.iter().map(|state| charts.shown(state)).collect();
+        arrays(py, &shown)
     }
 
     fn states_at(&self, py: Python<'_>, times: Vec<f64>) -> PyResult<Vec<State<Named>>> {
@@ -61,12 +78,12 @@ impl Run {
 impl Run {
     /// The requested states.
     fn samples<'py>(&self, py: Python<'py>) -> States<'py> {
-        arrays(py, &self.states)
+        self.shown(py, &self.states)
     }
 
     /// The states at times.
     fn at<'py>(&self, py: Python<'py>, times: Vec<f64>) -> PyResult<States<'py>> {
-        Ok(arrays(py, &self.states_at(py, times)?))
+        Ok(self.shown(py, &self.states_at(py, times)?))
     }
 
     /// Names, units and values of all observable quantities, at the requested states or at these times.
@@ -80,7 +97,8 @@ impl Run {
                 &made
             }
         };
-        let recording = py.detach(|| Recording::of(&self.solution, states));
+        let charts = self.charts.as_ref();
+        let recording = py.detach(|| charts::record(&self.solution, states, charts));
         let columns = recording.columns.into_iter();
         Ok(columns
             .map(|column| {
@@ -133,14 +151,24 @@ impl Run {
             constants: constants.map(|(name, _)| name.clone()).collect(),
             inputs,
         };
+        let cartesian = match self.charts {
+            Some(_) => machine.in_cartesian().map(|(machine, _)| machine),
+            None => None,
+        };
         let made = py.detach(|| {
-            let recording = Recording::of(&self.solution, &states);
-            machine.derived.with_model(|model, report| {
+            let mut recording = Recording::of(&self.solution, &states);
+            if let Some(charts) = &self.charts {
+                recording = charts.with_polar(&recording, &states);
+            }
+            machine.derived.with_model(|mut model, report| {
+                if self.charts.is_some() {
+                    model = *model.cartesian.take()?;
+                }
                 let compiled = Compiled::new(model, report)?;
                 let report = Report {
                     asked: &asked,
                     compiled: &compiled,
-                    machine: &machine.machine,
+                    machine: cartesian.as_ref().unwrap_or(&machine.machine),
                     method,
                     run: (&self.solution).into(),
                     recording: &recording,
@@ -170,8 +198,15 @@ impl Run {
         let mut all = Vec::new();
         for (k, t) in t.into_iter().enumerate() {
             let part = |of: &[f64]| of[k * n..][..n].to_vec();
-            let mut state = self.solution.start().clone();
-            (state.t, state.q.values, state.v.values) = (t, part(&q), part(&v));
+            let (q, v) = (part(&q), part(&v));
+            let state = match &self.charts {
+                Some(charts) => charts.in_run(t, &q, &v),
+                None => {
+                    let mut state = self.solution.start().clone();
+                    (state.t, state.q.values, state.v.values) = (t, q, v);
+                    state
+                }
+            };
             let seen = self.solution.observe_state(&state);
             let seen = seen.map_err(|error| PyValueError::new_err(error.to_string()))?;
             all.extend(seen.inputs.values);
@@ -181,12 +216,12 @@ impl Run {
 
     #[getter]
     fn start<'py>(&self, py: Python<'py>) -> States<'py> {
-        arrays(py, std::slice::from_ref(self.solution.start()))
+        self.shown(py, std::slice::from_ref(self.solution.start()))
     }
 
     #[getter]
     fn end<'py>(&self, py: Python<'py>) -> States<'py> {
-        arrays(py, std::slice::from_ref(self.solution.end()))
+        self.shown(py, std::slice::from_ref(self.solution.end()))
     }
 
     #[getter]
@@ -209,7 +244,7 @@ impl Run {
             lagrangian::Crossing::Any => 0,
         });
         let states: Vec<_> = events.iter().map(|event| event.state.clone()).collect();
-        (names, directions.collect(), arrays(py, &states))
+        (names, directions.collect(), self.shown(py, &states))
     }
 
     /// The energy balance, if it was recorded.

@@ -9,6 +9,7 @@ use lagrangian::{
     Crossing, Error, InputLaw, Machine as _, Observation, Progress, Simulation, Solution, State,
     StepMotion, System,
 };
+use lagrangian_sweep::charts::Charts;
 use lagrangian_sweep::signals::without_series;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -16,6 +17,7 @@ use pyo3::prelude::*;
 use crate::errors;
 use crate::inputs::{self, Law, Raised, Ruled, SharedLaw};
 use crate::machine::Machine;
+use crate::program::Derived;
 use crate::run::Run;
 
 /// How often a run checks for interruption and reports progress.
@@ -171,7 +173,28 @@ pub fn simulate(
             "every={every:e} would keep more than {MOST_SAMPLES:e} instants"
         )));
     }
-    let machine = of.machine.clone();
+    let has_functions = settings.all_inputs.is_some()
+        || settings.rules.iter().any(|rule| rule.3.is_some())
+        || settings.events.iter().any(|event| event.2.is_some())
+        || (settings.stop.as_ref()).is_some_and(|(_, function)| function.is_some());
+    let mut start = of.machine.start();
+    start.t = settings.t0;
+    start.q.values.clone_from(&settings.q);
+    start.v.values.clone_from(&settings.v);
+    // A Python function has the coordinates of the spec as its arguments, and may use the number of turns of an angle.
+    let in_cartesian = if has_functions {
+        None
+    } else {
+        py.detach(|| {
+            let absolute = settings.absolute_of.iter().map(|(name, _)| name);
+            let kept = settings.keep.iter().flatten();
+            in_cartesian(of, absolute.chain(kept).cloned().collect(), &start)
+        })
+    };
+    let (machine, start, charts) = match in_cartesian {
+        Some((machine, start, charts)) => (machine, start, Some(charts)),
+        None => (of.machine.clone(), start, None),
+    };
     if std::ptr::eq(method, &TAYLOR) {
         let checked = py.detach(|| machine.prepare().check_series().map_err(str::to_owned));
         checked.map_err(|reason| {
@@ -205,11 +228,13 @@ pub fn simulate(
     let stop = stop
         .map(|(output, function)| Watched::of(output, function))
         .transpose()?;
-    let mut start = machine.start();
-    start.t = settings.t0;
-    start.q.values = settings.q;
-    start.v.values = settings.v;
+    let marked_every = match (&settings.at, settings.dense) {
+        (None, false) => every,
+        // At instants that are not known before.
+        _ => 0.0,
+    };
     let task = Task {
+        charts: charts.as_ref().map(|charts| (charts, marked_every)),
         law: SharedLaw(Arc::new(law)),
         raised: raised.clone(),
         watches,
@@ -242,15 +267,28 @@ pub fn simulate(
     }
     match made {
         Ok((solution, states, error)) => {
-            let error = error.map(|error| error.to_string());
-            Ok((Run::new(solution, states), error))
+            let error = error.map(|error| of.derived.placed(&error));
+            Ok((Run::new(solution, states, charts), error))
         }
-        Err(error) => Err(of_error(py, &error)),
+        Err(error) => Err(of_error(py, &of.derived, &error)),
     }
 }
 
+/// The machine in the Cartesian coordinates that its spec names, with the start of a run in them; `None` if the run cannot be made in them,
+/// since one of these names of coordinates is that of a polar one, or a distance is negative.
+fn in_cartesian(
+    of: &Machine,
+    names: Vec<String>,
+    stated: &State<Named>,
+) -> Option<(InterpretedMachine, State<Named>, Charts)> {
+    let (machine, points) = of.in_cartesian()?;
+    points.check_kept(&names).ok()?;
+    let (charts, start) = Charts::begin(points, machine.start(), stated).ok()?;
+    Some((machine, start, charts))
+}
+
 /// The exception for a run that cannot start.
-fn of_error(py: Python<'_>, error: &Error) -> PyErr {
+fn of_error(py: Python<'_>, derived: &Derived, error: &Error) -> PyErr {
     match error {
         Error::UnknownCoordinate { .. }
         | Error::InvalidSetting { .. }
@@ -258,13 +296,15 @@ fn of_error(py: Python<'_>, error: &Error) -> PyErr {
         | Error::ParameterNotFinite { .. } => PyValueError::new_err(error.to_string()),
         error => {
             let none: Option<f64> = None;
-            errors::raise(py, "RunError", (error.to_string(), none, none))
+            errors::raise(py, "RunError", (derived.placed(error), none, none))
         }
     }
 }
 
 /// The settings of a run.
-struct Task {
+struct Task<'a> {
+    /// The chart in which the run is made, if that is not the one of the spec, and the interval between instants that are recorded.
+    charts: Option<(&'a Charts, f64)>,
     law: SharedLaw,
     raised: Raised,
     watches: Vec<(String, Watched, Crossing, Option<usize>)>,
@@ -294,7 +334,7 @@ type Made = (
     Option<Error>,
 );
 
-impl Task {
+impl Task<'_> {
     fn run(&self, machine: &InterpretedMachine) -> Result<Made, Error> {
         // Formulas are evaluated while the run uses its own system.
         let system = machine.prepare();
@@ -337,6 +377,9 @@ impl Task {
                     let State { q, v, .. } = step.state(to)?;
                     let inputs = step.inputs(to, &q.values, &v.values);
                     *held.lock().unwrap_or_else(PoisonError::into_inner) = Some(inputs);
+                }
+                if let Some((charts, every)) = self.charts {
+                    charts.follow(step, every)?;
                 }
                 samples.take(step)
             })

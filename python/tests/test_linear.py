@@ -115,3 +115,51 @@ def test_plots_show_the_response():
     plt.close("all")
     with pytest.raises(ValueError, match="from an input"):
         lg.load(ROOT / "machines" / "double_pendulum.machine").linearize(steady={}).bode()
+
+
+BALL = """machine Ball in plane {
+    parameters { m: kg = 2, g: m/s^2 = 10, r: m = 0.1, k: N/m = 800, b: N*s/m = 4 }
+    coordinates { y: m = 1 }
+    bodies { ball { mass: m, at: (0, y) } }
+    gravity (0, -g);
+    contacts { floor { gap: y - r, LAW } }
+}"""
+
+
+def test_a_ball_on_a_floor_that_yields_has_modes():
+    m = lg.loads(BALL.replace("LAW", "compliance: linear(k, b)"))
+    modes = m.modes()
+    assert m.equilibrium().q["y"] == pytest.approx(0.1 - 20 / 800, rel=1e-14)
+    assert modes.eigenvalues == pytest.approx([-1 + 1j * np.sqrt(399)], rel=1e-12)
+    # In the air it falls.
+    falling = m.linearize()
+    assert falling.A.tolist() == [[0.0, 1.0], [0.0, 0.0]]
+    assert falling.drift.tolist() == [0.0, -10.0]
+    rigid = lg.loads(BALL.replace("LAW", "restitution: 0.5"))
+    with pytest.raises(ValueError, match="rigid contacts, as `floor`, count as open"):
+        rigid.modes()
+    with pytest.raises(ValueError, match="the rigid contact `floor` is closed there"):
+        rigid.linearize(start={"y": 0.1})
+
+
+def test_modes_about_the_centre_are_in_cartesian_coordinates():
+    m = lg.loads(
+        """machine Particle in plane {
+    parameters { m: kg = 2, kx: N/m = 8, ky: N/m = 18 }
+    coordinates { s: m = 1, phi: rad }
+    bodies { particle { mass: m, at: polar(s, phi) } }
+    gravity none;
+    springs { along { stiffness: kx, stretch: s*cos(phi) }, across { stiffness: ky, stretch: s*sin(phi) } }
+    charts { particle: polar(s, phi) | cartesian(x, y) }
+}"""
+    )
+    modes = m.modes()
+    assert modes.eigenvalues == pytest.approx([2j, 3j], rel=1e-12)
+    assert set(modes[0].shape) == {"x", "y"} and modes.equilibrium.q.names == ("x", "y")
+    model = m.linearize(start={"s": 0.0})
+    assert model.states == ("x", "y", "der(x)", "der(y)") and model.at.q.names == ("x", "y")
+    np.testing.assert_allclose(model.A[2:, :2], [[-4, 0], [0, -9]], atol=1e-12)
+    # Away from the centre they are those of the spec, and an output that names one is of the spec alone.
+    assert m.linearize().states == ("s", "phi", "der(s)", "der(phi)")
+    with pytest.raises(ValueError, match="singular"):
+        m.linearize(start={"s": 0.0}, outputs=["s"])

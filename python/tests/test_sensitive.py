@@ -88,3 +88,44 @@ def test_derivatives_on_constraints_are_those_of_the_free_coordinate():
         by_y = 0.5 * np.sin(theta) * free.sensitivity("theta", name) - (np.cos(theta) if name == "l" else 0.0)
         np.testing.assert_allclose(held.sensitivity("y", name), by_y, atol=1e-8)
     assert np.abs(omega).max() > 1
+
+
+BALL = """machine Ball in plane {
+    parameters { m: kg = 0.3, g: m/s^2 = 10, e: 1 = 0.5 }
+    coordinates { y: m = 5 }
+    bodies { ball { mass: m, at: (0, y) } }
+    gravity (0, -g);
+    contacts { floor { gap: y, restitution: e } }
+}"""
+
+
+def test_derivatives_are_continued_across_an_impact():
+    # It falls for 1 s, and leaves the floor with e times 10 m/s: y = 10 e (t - T) - 5 (t - T)², T² = 2 y0/g.
+    found = lg.loads(BALL).sensitivities(1.5, ["e", "start(y)"], tolerance=1e-12, every=0.5)
+    np.testing.assert_allclose(found.t, [0, 0.5, 1.0, 1.5])
+    np.testing.assert_allclose(found.q["y"][-1], 5 * 0.5 - 5 * 0.25, atol=1e-9)
+    np.testing.assert_allclose(found.sensitivity("y", "e")[[1, 3]], [0, 10 * 0.5], atol=1e-8)
+    # y = e g T s - g s²/2 with s = t - T and dT/dy0 = 1/(g T) = 0.1.
+    expected = 0.1 * (0.5 * 10 * 0.5) + (0.5 * 10 - 10 * 0.5) * -0.1
+    np.testing.assert_allclose(found.sensitivity("y", "start(y)")[[1, 3]], [1, expected], atol=1e-8)
+    with pytest.raises(ValueError, match="leave `t0` and `at` out"):
+        lg.loads(BALL).sensitivities(1.5, "e", at=[1.0])
+
+
+def test_derivatives_pass_the_centre_of_polar_coordinates():
+    particle = lg.loads(
+        """machine Particle in plane {
+    parameters { m: kg = 2, k: N/m = 8 }
+    coordinates { s: m = 1, phi: rad }
+    bodies { particle { mass: m, at: polar(s, phi) } }
+    gravity none;
+    springs { to_centre { stiffness: k, stretch: s } }
+    charts { particle: polar(s, phi) | cartesian(x, y) }
+}"""
+    )
+    # s = |cos wt| through the centre at π/4, w = 2.
+    found = particle.sensitivities(1.5, ["k", "start(s)"], tolerance=1e-12, every=0.5)
+    side = np.sign(np.cos(2 * found.t))
+    np.testing.assert_allclose(found.q["s"], np.abs(np.cos(2 * found.t)), atol=1e-9)
+    np.testing.assert_allclose(found.sensitivity("s", "start(s)"), side * np.cos(2 * found.t), atol=1e-8)
+    np.testing.assert_allclose(found.sensitivity("s", "k"), -side * found.t * np.sin(2 * found.t) / 8, atol=1e-8)

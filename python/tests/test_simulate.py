@@ -387,3 +387,51 @@ def test_ctrl_c_ends_a_run(machines):
     child.send_signal(signal.SIGINT)
     _, said = child.communicate(timeout=10)
     assert child.returncode != 0 and "KeyboardInterrupt" in said
+
+
+PARTICLE = """machine Particle in plane {
+    parameters { m: kg = 2, kx: N/m = 8, ky: N/m = 18, _F: N = 3, _w: rad/s = 2 }
+    coordinates { s: m = 1, phi: rad }
+    inputs { pull: N = 0 }
+    bodies { particle { mass: m, at: polar(s, phi) } }
+    gravity none;
+    springs { along { stiffness: kx, stretch: s*cos(phi) }, across { stiffness: ky, stretch: s*sin(phi) } }
+    forces { pull { at: particle.at, force: (0, pull) } }
+    charts { particle: polar(s, phi) | cartesian(x, y) }
+    outputs { height: m = s*sin(phi) }
+}"""
+
+
+def test_a_run_passes_the_centre_of_polar_coordinates():
+    m = lg.loads(PARTICLE)
+    # x = cos 2t, y = 0: through the centre at π/4.
+    run = m.simulate(3, tolerance=1e-11)
+    x = np.cos(2 * run.t)
+    np.testing.assert_allclose(run["s"], np.abs(x), atol=1e-8)
+    away = np.abs(x) > 1e-3
+    np.testing.assert_allclose(np.cos(run["phi"])[away], np.sign(x)[away], atol=1e-6)
+    assert run.start.q["s"] == 1.0 and run.end.q["s"] == pytest.approx(abs(np.cos(6)), abs=1e-8)
+    between = run.at([0.123, 2.9])
+    np.testing.assert_allclose(between.q["s"], np.abs(np.cos(2 * np.array([0.123, 2.9]))), atol=1e-8)
+    assert {"s", "phi", "der(s)", "der(phi)"} <= set(run.columns)
+    assert "x" not in run.columns and "height" in run.columns
+    assert "<html" in run.report().html
+    # An input by a formula, and an event.
+    run = m.simulate(3, inputs={"pull": "_F*sin(_w*t)"}, events={"low": "height"}, tolerance=1e-11)
+    assert "pull" in run.columns
+    # A Python function sees the coordinates of the spec, in which the distance becomes negative.
+    for given in [{"stop": lambda t, q, v: False}, {"keep": ["s"]}]:
+        assert m.simulate(3, **given)["s"].min() == pytest.approx(-1, abs=1e-4)
+
+
+def test_an_assumption_that_ends_a_run_has_its_place():
+    m = lg.loads(
+        """machine Fall in plane {
+    coordinates { x: m = 0.5 }
+    bodies { ball { mass: 1, at: (x, 0) } }
+    gravity (-9.81, 0);
+    assume { x > 0 }
+}"""
+    )
+    with pytest.raises(lg.RunError, match=r"the machine assumes `x > 0`, which does not hold at t = .* \(.*:5:14\)"):
+        m.simulate(1)

@@ -16,13 +16,41 @@ use super::{Constraints, Level, NEAR, Unprojected, fork};
 use crate::compensated::two_sum;
 use crate::{System, Vector};
 
-/// The length of the workspace: the numbers of the function, and the reciprocal of a scale for each row.
+/// The length of the workspace: the numbers of the function, and [`Sizes`] of the rows.
 pub(super) const fn workspace(coordinates: usize, constraints: usize) -> usize {
     let layout = ProjectionLayout {
         coordinates,
         constraints,
     };
-    layout.len() + constraints
+    layout.len() + 2 * coordinates + 4 * constraints
+}
+
+/// What residuals of rows are compared with: one number of each row.
+struct Sizes<'w> {
+    /// The largest coordinates and rates so far, those of the state before its correction included.
+    of: [&'w mut [f64]; 2],
+    /// The reciprocals of the scales now, of positions and of rates.
+    now: [&'w mut [f64]; 2],
+    /// The scales of the guaranteed bound, of positions and of rates.
+    guaranteed: [&'w mut [f64]; 2],
+}
+
+impl<'w> Sizes<'w> {
+    /// In a workspace; `None` if it is too short.
+    fn within(workspace: &'w mut [f64], layout: &ProjectionLayout) -> Option<Self> {
+        let constraints = layout.constraints;
+        let (of, workspace) = workspace.split_at_mut_checked(2 * layout.coordinates)?;
+        let of = of.split_at_mut_checked(layout.coordinates)?;
+        let (now, guaranteed) = workspace.split_at_mut_checked(2 * constraints)?;
+        let now = now.split_at_mut_checked(constraints)?;
+        let guaranteed = guaranteed.get_mut(..2 * constraints)?;
+        let guaranteed = guaranteed.split_at_mut_checked(constraints)?;
+        Some(Self {
+            of: [of.0, of.1],
+            now: [now.0, now.1],
+            guaranteed: [guaranteed.0, guaranteed.1],
+        })
+    }
 }
 
 impl<V: Vector> Constraints<V> {
@@ -34,17 +62,17 @@ impl<V: Vector> Constraints<V> {
         system: &S,
         place: &mut Unprojected<'_, V>,
     ) -> Option<bool> {
-        let layout = ProjectionLayout {
-            coordinates: place.q[0].as_slice().len(),
-            constraints: system.constraints().len(),
-        };
+        let layout = layout_of(system, place.q[0]);
         let are_all_chosen = self.choice.rank == layout.constraints;
         if !are_all_chosen || self.redundant || self.at_fork || self.kept.is_some() {
             return None;
         }
         let length = super::constraint_workspace(layout.coordinates, layout.constraints);
         system.with_workspace(length, |all| {
-            let (numbers, scales) = all?.split_at_mut_checked(layout.len())?;
+            // Computed again: where the numbers of coordinates and constraints are constants, so are all places now.
+            let layout = layout_of(system, place.q[0]);
+            let (numbers, sizes) = all?.split_at_mut_checked(layout.len())?;
+            let mut sizes = Sizes::within(sizes, &layout)?;
             let mut evaluate = |place: &Unprojected<'_, V>, numbers: &mut [f64]| {
                 let (q, v) = (&*place.q[0], &*place.v[0]);
                 matches!(system.projection(place.t, q, v, numbers), Ok(true))
@@ -52,7 +80,7 @@ impl<V: Vector> Constraints<V> {
             if !evaluate(place, numbers) {
                 return None;
             }
-            self.project_from(&layout, numbers, scales, place, &mut evaluate)
+            self.project_from(&layout, numbers, &mut sizes, place, &mut evaluate)
         })
     }
 
@@ -63,15 +91,13 @@ impl<V: Vector> Constraints<V> {
         t: f64,
         q: &V,
     ) -> Option<f64> {
-        let layout = ProjectionLayout {
-            coordinates: q.as_slice().len(),
-            constraints: system.constraints().len(),
-        };
+        let layout = layout_of(system, q);
         if self.redundant || self.choice.rank != layout.constraints {
             return None;
         }
         let length = super::constraint_workspace(layout.coordinates, layout.constraints);
         system.with_workspace(length, |all| {
+            let layout = layout_of(system, q);
             let numbers = all?.get_mut(..layout.len())?;
             let is_there = system.projection(t, q, &q.zeros_like(), numbers);
             if !matches!(is_there, Ok(true)) {
@@ -93,36 +119,43 @@ impl<V: Vector> Constraints<V> {
         &mut self,
         layout: &ProjectionLayout,
         numbers: &mut [f64],
-        scales: &mut [f64],
+        sizes: &mut Sizes<'_>,
         place: &mut Unprojected<'_, V>,
         evaluate: &mut impl FnMut(&Unprojected<'_, V>, &mut [f64]) -> bool,
     ) -> Option<bool> {
         self.reduces_to_roundoff = false;
         let threshold = self.reduction_threshold();
-        let residuals = self.residuals_of(layout, numbers, place);
-        let now = [residuals[0][0], residuals[1][0]];
+        self.scales
+            .write_sizes([&*place.q[0], &*place.v[0]], &mut sizes.of);
+        self.measure::<false>(layout, numbers, sizes, place);
+        let now = [
+            largest_share(&numbers[layout.positions()], sizes.now[0]),
+            largest_share(&numbers[layout.rates()], sizes.now[1]),
+        ];
         // The negation is true of NaN.
         if !(now[0] < NEAR && now[1] < NEAR) {
             return None;
         }
         let is_moved = !(now[0] <= threshold && now[1] <= threshold);
-        if is_moved && !self.holds_tightly(layout, numbers, place.q[0]) {
+        if is_moved && !self.holds_tightly(layout, numbers, sizes) {
             return None;
         }
         for moved in &mut self.moved {
             moved.as_mut_slice().fill(0.0);
         }
         self.record_residuals_of_step(now);
-        let mut left = residuals;
         if is_moved {
             self.scales.record_inertias(&numbers[layout.inertias()]);
             let before = [&place.q, &place.v].map(|[high, low]| [(*high).clone(), (*low).clone()]);
             let mut corrected = Some(());
             if now[0] > threshold {
-                corrected = self.correct_coordinates(layout, numbers, scales, place, evaluate);
+                corrected =
+                    self.correct_coordinates(layout, numbers, sizes.now[0], place, evaluate);
             }
-            corrected = corrected
-                .and_then(|()| self.correct_rates(layout, numbers, scales, place, evaluate));
+            corrected = corrected.and_then(|()| {
+                self.measure::<true>(layout, numbers, sizes, place);
+                self.correct_rates(layout, numbers, sizes.now[1], place, evaluate)
+            });
             if corrected.is_none() {
                 let levels = [&mut place.q, &mut place.v];
                 for ([high, low], [high_before, low_before]) in levels.into_iter().zip(before) {
@@ -131,10 +164,17 @@ impl<V: Vector> Constraints<V> {
                 }
                 return None;
             }
-            left = self.residuals_of(layout, numbers, place);
-            self.chosen_residuals = [left[0][0], left[1][0]];
+            self.chosen_residuals = [
+                largest_share(&numbers[layout.positions()], sizes.now[0]),
+                largest_share(&numbers[layout.rates()], sizes.now[1]),
+            ];
+        } else {
+            self.measure::<true>(layout, numbers, sizes, place);
         }
-        self.residual = left[0][1].max(left[1][1]);
+        self.residual = largest_ratio(
+            [&numbers[layout.positions()], &numbers[layout.rates()]],
+            &sizes.guaranteed,
+        );
         for (k, row) in rows(layout, numbers).enumerate() {
             let by_rates = dot(row, place.v[0].as_slice());
             let rate = numbers[layout.rates()][k];
@@ -143,40 +183,49 @@ impl<V: Vector> Constraints<V> {
         Some(is_moved)
     }
 
-    /// The largest residuals of positions and of rates, relative to their scales now and to those of the guaranteed bound; NaN counts as the largest.
+    /// Measures what the residuals of each row are compared with: now, or with `ALL` those of the guaranteed bound as well and of the rates only. Without,
+    /// the sums of the terms of positions are in place of their guaranteed scales.
+    ///
+    /// A correction that is small relative to the scales changes these by as little, so they serve for the residuals after it, too.
     #[inline(always)]
-    fn residuals_of(
+    fn measure<const ALL: bool>(
         &self,
         layout: &ProjectionLayout,
         numbers: &[f64],
+        sizes: &mut Sizes<'_>,
         place: &Unprojected<'_, V>,
-    ) -> [[f64; 2]; 2] {
-        let mut most = [[0.0_f64; 2]; 2];
-        let (positions, rates) = (&numbers[layout.positions()], &numbers[layout.rates()]);
-        let (q, v) = (&*place.q[0], &*place.v[0]);
-        let at = (q, v, self.scales.roundoff_of_rates(v));
+    ) {
+        let v = place.v[0].as_slice();
+        let inertial = self.scales.roundoff_of_sizes(sizes.of[1]);
         for (k, row) in rows(layout, numbers).enumerate() {
-            let left = [positions[k], rates[k]];
-            let relative = self.scales.relative_within(k, row, left, at);
-            for level in 0..2 {
-                let of_level = [relative[level].now, relative[level].guaranteed];
-                for (most, now) in most[level].iter_mut().zip(of_level) {
-                    if !(now <= *most || most.is_nan()) {
-                        *most = now;
-                    }
-                }
+            let terms = |of: &[f64]| -> f64 {
+                let terms = row.iter().zip(of);
+                terms.map(|(g, size)| g.abs() * size).sum()
+            };
+            let positions = terms(sizes.of[0]);
+            let by_time = (numbers[layout.rates()][k] - dot(row, v)).abs();
+            let of_positions = self.scales.of_position_terms(k, row, positions);
+            let of_rates =
+                (self.scales).of_rate_terms(k, row, terms(sizes.of[1]) + by_time, inertial);
+            sizes.now[1][k] = share(1.0, of_rates.now);
+            if ALL {
+                sizes.guaranteed[0][k] = of_positions.guaranteed;
+                sizes.guaranteed[1][k] = of_rates.guaranteed;
+            } else {
+                sizes.now[0][k] = share(1.0, of_positions.now);
+                sizes.guaranteed[0][k] = positions;
             }
         }
-        most
     }
 
     /// Whether every row is so independent of the others, and so strong in the pose, that residuals need not be reduced to round-off.
     #[inline(always)]
-    fn holds_tightly(&self, layout: &ProjectionLayout, numbers: &[f64], q: &V) -> bool {
+    fn holds_tightly(&self, layout: &ProjectionLayout, numbers: &[f64], sizes: &Sizes<'_>) -> bool {
         let (pivots, compliances) = (&numbers[layout.pivots()], &numbers[layout.compliances()]);
         let mut hold = true;
-        for (k, row) in rows(layout, numbers).enumerate() {
-            let [now, greatest] = self.scales.sizes_of_terms(k, row, q);
+        for k in 0..layout.constraints {
+            let now = sizes.guaranteed[0][k];
+            let greatest = self.scales.greatest_terms(k, now);
             let least = fork::TIGHT * greatest;
             // A pivot that is not a number holds nothing.
             hold &= pivots[k] * (now * now) >= least * least * compliances[k];
@@ -190,14 +239,11 @@ impl<V: Vector> Constraints<V> {
         &mut self,
         layout: &ProjectionLayout,
         numbers: &mut [f64],
-        scales: &mut [f64],
+        scales: &[f64],
         place: &mut Unprojected<'_, V>,
         evaluate: &mut impl FnMut(&Unprojected<'_, V>, &mut [f64]) -> bool,
     ) -> Option<()> {
         let threshold = self.reduction_threshold();
-        for (k, (row, scale)) in rows(layout, numbers).zip(&mut *scales).enumerate() {
-            *scale = share(1.0, self.scales.of_positions(k, row, place.q[0]));
-        }
         let mut left = largest_share(&numbers[layout.positions()], scales);
         while !(left <= threshold) {
             let moves = &numbers[layout.moves_of_coordinates()];
@@ -221,18 +267,12 @@ impl<V: Vector> Constraints<V> {
         &mut self,
         layout: &ProjectionLayout,
         numbers: &mut [f64],
-        scales: &mut [f64],
+        scales: &[f64],
         place: &mut Unprojected<'_, V>,
         evaluate: &mut impl FnMut(&Unprojected<'_, V>, &mut [f64]) -> bool,
     ) -> Option<()> {
         let threshold = self.reduction_threshold();
         let m = layout.constraints;
-        let inertial = self.scales.roundoff_of_rates(place.v[0]);
-        for (k, (row, scale)) in rows(layout, numbers).zip(&mut *scales).enumerate() {
-            let rate = numbers[layout.rates()][k];
-            let at = (&*place.v[0], inertial);
-            *scale = share(1.0, self.scales.of_rates(k, row, rate, at));
-        }
         let mut left = largest_share(&numbers[layout.rates()], scales);
         let mut is_first = true;
         while !(left <= threshold) {
@@ -258,6 +298,15 @@ impl<V: Vector> Constraints<V> {
             }
         }
         Some(())
+    }
+}
+
+/// The arrangement of the numbers of a machine.
+#[inline(always)]
+fn layout_of<S: System>(system: &S, q: &S::Vector) -> ProjectionLayout {
+    ProjectionLayout {
+        coordinates: q.as_slice().len(),
+        constraints: system.constraints().len(),
     }
 }
 
@@ -292,4 +341,25 @@ fn largest_share(residuals: &[f64], reciprocals: &[f64]) -> f64 {
         }
     }
     most
+}
+
+/// The largest residual relative to a scale of its row, of positions or of rates; NaN if one is not a number. Compared by products, so that one division
+/// gives it.
+#[inline(always)]
+fn largest_ratio(residuals: [&[f64]; 2], scales: &[&mut [f64]; 2]) -> f64 {
+    let (mut most, mut scale_of_most) = (0.0_f64, 1.0);
+    for (residuals, scales) in residuals.into_iter().zip(scales) {
+        for (left, scale) in residuals.iter().zip(scales.iter()) {
+            let left = left.abs();
+            // Each is false of NaN.
+            if left == 0.0 || left * scale_of_most <= most * scale {
+                continue;
+            }
+            if left.is_nan() || scale.is_nan() {
+                return f64::NAN;
+            }
+            (most, scale_of_most) = (left, *scale);
+        }
+    }
+    share(most, scale_of_most)
 }

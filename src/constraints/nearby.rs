@@ -117,7 +117,7 @@ impl<V: Vector> Constraints<V> {
                     self.scales.of_rates(k, row, workspace.rates[k], at)
                 }
             };
-            workspace.lengths[k] = share(1.0, scale);
+            workspace.lengths[k] = share(1.0, scale.now);
         }
     }
 }

@@ -18,7 +18,7 @@
 
 use super::algebra::{root, share};
 use super::{REDUCTION_THRESHOLD, RESIDUAL, ROUNDOFF};
-use crate::math::sqrt;
+use crate::math::{larger, sqrt};
 use crate::{System, Vector};
 
 /// The number of rows for each coordinate whose largest terms are remembered without an allocator.
@@ -43,11 +43,13 @@ impl<V: Vector> OfRows<V> {
     }
 
     /// How many rows the vectors have room for, by the number of coordinates.
+    #[inline(always)]
     fn coordinates(&self) -> usize {
         self.first[0].as_slice().len().max(1)
     }
 
     /// The number of a row; 0 for a row that is not remembered.
+    #[inline(always)]
     fn get(&self, k: usize) -> f64 {
         let n = self.coordinates();
         if let Some(column) = self.first.get(k / n) {
@@ -60,6 +62,7 @@ impl<V: Vector> OfRows<V> {
     }
 
     /// Makes the number of a row at least as great as this, if that is finite and the row is remembered.
+    #[inline(always)]
     fn raise(&mut self, k: usize, to: f64) {
         let n = self.coordinates();
         let known = match self.first.get_mut(k / n) {
@@ -101,6 +104,15 @@ pub(crate) struct Scales<V> {
     inertia: [V; 2],
     /// The observed round-off of positions and rates, as a length in the metric of inertia, relative to the round-off unit.
     observed_roundoff: [f64; 2],
+}
+
+/// What a residual of a row is relative to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RowScale {
+    /// The size of the present terms.
+    pub now: f64,
+    /// That of the largest terms so far.
+    pub guaranteed: f64,
 }
 
 /// A row's residual, of positions or rates, relative to its scale.
@@ -151,6 +163,7 @@ impl<V: Vector> Scales<V> {
     }
 
     /// Records the terms of a row at a state; `by_time` is `|∂gₖ/∂t|`.
+    #[inline(always)]
     pub fn record_terms(&mut self, k: usize, row: &[f64], by_time: f64) {
         let (sizes_q, sizes_v) = (self.sizes[0].as_slice(), self.sizes[1].as_slice());
         let sum = |sizes: &[f64]| row.iter().zip(sizes).map(|(g, y)| g.abs() * y).sum::<f64>();
@@ -198,8 +211,44 @@ impl<V: Vector> Scales<V> {
     #[inline(always)]
     pub fn sizes_of_terms(&self, k: usize, row: &[f64], q: &V) -> [f64; 2] {
         let now = self.sum(row, q, 0);
-        let greatest = now.max(self.terms[0].get(k)).max(self.curvatures.get(k));
-        [now, greatest]
+        [now, self.greatest_terms(k, now)]
+    }
+
+    /// The largest size of a row's terms, which now is this.
+    #[inline(always)]
+    pub fn greatest_terms(&self, k: usize, now: f64) -> f64 {
+        larger(now, larger(self.terms[0].get(k), self.curvatures.get(k)))
+    }
+
+    /// Writes the largest coordinates and rates so far, those of a state included.
+    #[inline(always)]
+    pub fn write_sizes(&self, state: [&V; 2], to: &mut [&mut [f64]; 2]) {
+        for ((to, sizes), y) in to.iter_mut().zip(&self.sizes).zip(state) {
+            let known = sizes.as_slice().iter().zip(y.as_slice());
+            for (to, (size, y)) in to.iter_mut().zip(known) {
+                *to = larger(*size, y.abs());
+            }
+        }
+    }
+
+    /// [`roundoff_of_rates`](Self::roundoff_of_rates) for [these sizes](Self::write_sizes) of rates.
+    #[inline(always)]
+    pub fn roundoff_of_sizes(&self, of_rates: &[f64]) -> f64 {
+        let by = self.inertia[0].as_slice().iter().zip(of_rates);
+        let squares = by.map(|(inertia, size)| inertia * size * size);
+        self.observed_roundoff[1] + sqrt(squares.sum())
+    }
+
+    /// [`of_positions`](Self::of_positions) for the sum of the terms of the row now.
+    #[inline(always)]
+    pub fn of_position_terms(&self, k: usize, row: &[f64], now: f64) -> RowScale {
+        self.scale((k, 0), row, now, self.observed_roundoff[0])
+    }
+
+    /// [`of_rates`](Self::of_rates) for the sum of the terms of the row now, that of explicit time included.
+    #[inline(always)]
+    pub fn of_rate_terms(&self, k: usize, row: &[f64], now: f64, inertial: f64) -> RowScale {
+        self.scale((k, 1), row, now, inertial)
     }
 
     /// The size of a row's terms in a pose relative to the largest: where it is small, the row is weak.
@@ -213,7 +262,7 @@ impl<V: Vector> Scales<V> {
         let sizes = self.sizes[level].as_slice().iter().zip(y.as_slice());
         let terms = row.iter().zip(sizes);
         terms
-            .map(|(g, (size, y))| g.abs() * size.max(y.abs()))
+            .map(|(g, (size, y))| g.abs() * larger(*size, y.abs()))
             .sum()
     }
 
@@ -258,7 +307,7 @@ impl<V: Vector> Scales<V> {
         let by = (self.inertia[0].as_slice().iter()).zip(self.sizes[1].as_slice());
         let by = by.zip(v.as_slice());
         let squares = by.map(|((inertia, size), v)| {
-            let most = size.max(v.abs());
+            let most = larger(*size, v.abs());
             inertia * most * most
         });
         sqrt(squares.sum())
@@ -266,21 +315,9 @@ impl<V: Vector> Scales<V> {
 
     /// The residuals of a row, of positions and rates, relative to their scales.
     pub fn relative(&self, k: usize, row: &[f64], left: [f64; 2], q: &V, v: &V) -> [Relative; 2] {
-        self.relative_within(k, row, left, (q, v, self.roundoff_of_rates(v)))
-    }
-
-    /// The same for a known [round-off](Self::roundoff_of_rates) of the rates.
-    #[inline(always)]
-    pub fn relative_within(
-        &self,
-        k: usize,
-        row: &[f64],
-        left: [f64; 2],
-        (q, v, inertial): (&V, &V, f64),
-    ) -> [Relative; 2] {
         [
             self.relative_of_positions(k, row, left[0], q),
-            self.relative_of_rates_within(k, row, left[1], (v, inertial)),
+            self.relative_of_rates(k, row, left[1], v),
         ]
     }
 
@@ -293,71 +330,44 @@ impl<V: Vector> Scales<V> {
     /// The residual of the positions of a row, relative to its scale.
     #[inline(always)]
     pub fn relative_of_positions(&self, k: usize, row: &[f64], left: f64, q: &V) -> Relative {
-        let positions = self.sum(row, q, 0);
-        self.relative_to((k, 0), row, left, positions, self.observed_roundoff[0])
+        self.of_positions(k, row, q).of(left)
     }
 
     /// The residual of the rates of a row, relative to its scale.
     #[inline(always)]
     pub fn relative_of_rates(&self, k: usize, row: &[f64], left: f64, v: &V) -> Relative {
-        self.relative_of_rates_within(k, row, left, (v, self.roundoff_of_rates(v)))
+        let at = (v, self.roundoff_of_rates(v));
+        self.of_rates(k, row, left, at).of(left)
     }
 
+    /// What the residual of the positions of a row is relative to.
     #[inline(always)]
-    fn relative_of_rates_within(
-        &self,
-        k: usize,
-        row: &[f64],
-        left: f64,
-        (v, inertial): (&V, f64),
-    ) -> Relative {
+    pub fn of_positions(&self, k: usize, row: &[f64], q: &V) -> RowScale {
+        self.of_position_terms(k, row, self.sum(row, q, 0))
+    }
+
+    /// What the residual of the rates of a row, `left`, is relative to, for this [round-off](Self::roundoff_of_rates) of the rates.
+    #[inline(always)]
+    pub fn of_rates(&self, k: usize, row: &[f64], left: f64, (v, inertial): (&V, f64)) -> RowScale {
         let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
         let rates = self.sum(row, v, 1) + (left - by_rates).abs();
-        self.relative_to((k, 1), row, left, rates, inertial)
+        self.of_rate_terms(k, row, rates, inertial)
     }
 
-    /// What the residual of the positions of a row is relative to now.
+    /// The sum of the terms of a row now, and the largest so far, each with the round-off in the metric of inertia.
     #[inline(always)]
-    pub fn of_positions(&self, k: usize, row: &[f64], q: &V) -> f64 {
-        let positions = self.sum(row, q, 0);
-        positions + self.floor((k, 0), row, positions, self.observed_roundoff[0])
-    }
-
-    /// What the residual of the rates of a row, `left`, is relative to now, for this [round-off](Self::roundoff_of_rates) of the rates.
-    #[inline(always)]
-    pub fn of_rates(&self, k: usize, row: &[f64], left: f64, (v, inertial): (&V, f64)) -> f64 {
-        let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
-        let rates = self.sum(row, v, 1) + (left - by_rates).abs();
-        rates + self.floor((k, 1), row, rates, inertial)
-    }
-
-    /// The round-off of a row in the metric of inertia, whose terms now are `now`.
-    #[inline(always)]
-    fn floor(&self, (k, level): (usize, usize), row: &[f64], now: f64, inertial: f64) -> f64 {
-        if inertial == 0.0 {
-            return 0.0;
-        }
-        let greatest = now.max(self.terms[level].get(k));
-        // Relative to the largest size of the row.
-        let reach = if now > 0.0 { greatest / now } else { 1.0 };
-        self.length(row) * OF_INERTIA * reach * inertial
-    }
-
-    /// A residual relative to the sum of the terms of its row now, and to the largest so far, each with the round-off in the metric of inertia.
-    #[inline(always)]
-    fn relative_to(
-        &self,
-        (k, level): (usize, usize),
-        row: &[f64],
-        left: f64,
-        now: f64,
-        inertial: f64,
-    ) -> Relative {
-        let greatest = now.max(self.terms[level].get(k));
-        let floor = self.floor((k, level), row, now, inertial);
-        Relative {
-            now: share(left, now + floor),
-            guaranteed: share(left, greatest + floor),
+    fn scale(&self, (k, level): (usize, usize), row: &[f64], now: f64, inertial: f64) -> RowScale {
+        let greatest = larger(now, self.terms[level].get(k));
+        let floor = if inertial == 0.0 {
+            0.0
+        } else {
+            // Relative to the largest size of the row.
+            let reach = if now > 0.0 { greatest / now } else { 1.0 };
+            self.length(row) * OF_INERTIA * reach * inertial
+        };
+        RowScale {
+            now: now + floor,
+            guaranteed: greatest + floor,
         }
     }
 
@@ -392,9 +402,21 @@ impl<V: Vector> Scales<V> {
 
     /// The relative change of the residuals of positions and rates by rounding alone. The rows that map rates
     /// turn by the round-off of angles.
+    #[inline(always)]
     pub fn roundoff(&self) -> [f64; 2] {
         let angles = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
         let greatest = angles.fold(1.0_f64, |most, (is_angle, size)| most.max(is_angle * size));
         [ROUNDOFF, ROUNDOFF * greatest]
+    }
+}
+
+impl RowScale {
+    /// A residual relative to it.
+    #[inline(always)]
+    fn of(self, left: f64) -> Relative {
+        Relative {
+            now: share(left, self.now),
+            guaranteed: share(left, self.guaranteed),
+        }
     }
 }

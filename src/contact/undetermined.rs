@@ -50,6 +50,9 @@ const RIGID: f64 = 1e-14;
 /// Rates that are 0 where a contact is held, relative to the greatest rate.
 const HELD: f64 = 1e-9;
 
+/// What the rounding of gaps makes of the rates that close them in a step of time stepping, at most, relative to the greatest rate.
+const ROUNDING_OF_GAPS: f64 = 1e-8;
+
 /// With rates up to this a distribution is still one.
 const TOLERABLE: f64 = 1e-11;
 
@@ -299,6 +302,16 @@ pub(super) fn solve_for_motion(
     if some.is_err() && is_in_space(contacts) {
         some = problem::solve_into(contacts, (g, b), None, (&mut *answer, &mut memory.problem));
     }
+    let mut rates_of_a_motion = None;
+    let mut b = b;
+    if some.is_err() {
+        rates_of_a_motion = without_rounding_of_gaps(contacts, (g, b), memory);
+        if let Some(rates) = &rates_of_a_motion {
+            b = rates;
+            let near = Some(near);
+            some = problem::solve_into(contacts, (g, b), near, (&mut *answer, &mut memory.problem));
+        }
+    }
     let mut depends = Vec::new();
     if some.is_ok() {
         depends = motion_depends_on(contacts, (g, b), &answer.forces, memory);
@@ -312,12 +325,72 @@ pub(super) fn solve_for_motion(
     }
     let start = some.is_ok().then_some(answer.forces.as_slice());
     let problem = (g, b, &groups[..]);
-    if let Some(found) = distributed(contacts, problem, (start, true), HELD, memory) {
+    let mut found = distributed(contacts, problem, (start, true), HELD, memory);
+    if found.is_none() && rates_of_a_motion.is_none() {
+        rates_of_a_motion = without_rounding_of_gaps(contacts, (g, b), memory);
+        if let Some(rates) = &rates_of_a_motion {
+            let problem = (g, &rates[..], &groups[..]);
+            found = distributed(contacts, problem, (start, true), HELD, memory);
+        }
+    }
+    if let Some(found) = found {
         *answer = found;
         return Ok(());
     }
     answer.shared_otherwise = depends;
     some
+}
+
+/// The rates of contacts, with those of their normals as a motion of the machine makes them; none if they are so already, or differ by more than rounding.
+///
+/// Gaps are known up to rounding. In a step of time stepping the rates are to close them, which divides that by the length of the step: four feet of a rigid body,
+/// one of which is a little too high, cannot all be closed, and which of them opens would be a question of rounding, on which the motion may depend.
+fn without_rounding_of_gaps(
+    contacts: &[ContactUnknowns],
+    (g, b): (&[f64], &[f64]),
+    memory: &mut Memory,
+) -> Option<Vec<f64>> {
+    let SharingMemory {
+        directions, part, ..
+    } = &mut memory.sharing;
+    let is_normal = |k: &usize| {
+        matches!(
+            contacts[*k],
+            ContactUnknowns::Both { .. } | ContactUnknowns::Normal { .. }
+        )
+    };
+    directions.clear();
+    directions.extend((0..contacts.len()).filter(is_normal).map(|k| 2 * k));
+    part.clear();
+    for i in &*directions {
+        part.extend(directions.iter().map(|j| g[i * b.len() + j]));
+    }
+    let mut basis = memory
+        .sharing
+        .in_equilibrium(memory.sharing.directions.len());
+    let directions = &memory.sharing.directions;
+    let mut rates = b.to_vec();
+    for k in 0..basis.len() {
+        let (known, rest) = basis.split_at_mut(k);
+        let own = &mut rest[0];
+        for known in &*known {
+            let share = dot(known, own);
+            own.iter_mut().zip(known).for_each(|(x, y)| *x -= share * y);
+        }
+        let length = dot(own, own).sqrt();
+        own.iter_mut().for_each(|x| *x /= length);
+        let along: f64 = directions
+            .iter()
+            .zip(&*own)
+            .map(|(i, x)| rates[*i] * x)
+            .sum();
+        for (i, x) in directions.iter().zip(&*own) {
+            rates[*i] -= along * x;
+        }
+    }
+    let changes = rates.iter().zip(b).map(|(rate, b)| (rate - b).abs());
+    let most = changes.fold(0.0, f64::max);
+    (most > 0.0 && most <= ROUNDING_OF_GAPS * greatest(b)).then_some(rates)
 }
 
 /// Whether some contact has a second tangent.

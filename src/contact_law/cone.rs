@@ -27,6 +27,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::lcp::{self, Unsolved};
+use crate::implicit::lu::Lu;
 use interior::Interior;
 
 /// What Φ is of a solution, relative to the size of the terms.
@@ -156,7 +157,7 @@ struct Newton {
     phi: Vec<f64>,
     slopes: Vec<f64>,
     by: Vec<f64>,
-    exchanges: Vec<usize>,
+    lu: Lu<1>,
 }
 
 /// Solves the problem: says by how much the forces miss a condition. The search begins with the forces `z`, and writes the solution there.
@@ -175,6 +176,7 @@ pub(super) fn solve(
     search(problem, z, work);
     if work.missed <= TOLERABLE {
         z.copy_from_slice(&work.best);
+        problem.clear_open(z, &work.best);
         Ok(work.missed)
     } else {
         Err(Unsolved)
@@ -191,7 +193,7 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
     }
     let mut rounds = ROUNDS;
     for round in 0.. {
-        if round == ROUNDS_BEFORE_CONVEX_PROBLEMS && work.missed > TOLERABLE {
+        if round == ROUNDS_BEFORE_CONVEX_PROBLEMS {
             if problem.solve_convex_problems(work) {
                 rounds = ROUNDS_AFTER_CONVEX_PROBLEMS;
             }
@@ -217,7 +219,12 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
             }
         }
         problem.polish(z, (Pace::Bold, FEW_STEPS), work);
-        if work.is_done_since(known) {
+        let is_done = if round < ROUNDS_BEFORE_CONVEX_PROBLEMS {
+            work.missed <= GOOD
+        } else {
+            work.is_done_since(known)
+        };
+        if is_done {
             return;
         }
     }
@@ -258,6 +265,27 @@ impl Towards {
 impl Problem {
     fn n(&self) -> usize {
         self.b.len()
+    }
+
+    /// Sets the forces of contacts that open to 0 itself: a solution has less than Φ there, which others would take for a contact that presses.
+    fn clear_open(&self, z: &mut [f64], solution: &[f64]) {
+        for part in &self.parts {
+            match *part {
+                Part::Normal(i) if solution[i] <= self.rate(i, solution) => z[i] = 0.0,
+                Part::Normal(_) => {}
+                Part::Disc {
+                    places,
+                    count,
+                    friction,
+                    on,
+                    known_normal,
+                } => {
+                    if Self::radius(friction, on, known_normal, z) == 0.0 {
+                        places[..count].iter().for_each(|i| z[*i] = 0.0);
+                    }
+                }
+            }
+        }
     }
 
     fn row(&self, i: usize) -> &[f64] {
@@ -347,7 +375,7 @@ impl Problem {
             phi,
             slopes,
             by,
-            exchanges,
+            lu,
         } = newton;
         let mut note = |z: &[f64], missed: f64| {
             if missed < *least {
@@ -374,7 +402,11 @@ impl Problem {
             self.write_slopes(now, yielding, slopes);
             by.clear();
             by.extend_from_slice(phi);
-            if !eliminate(slopes, exchanges, by) {
+            if !factor_rows(slopes, n, lu) {
+                return;
+            }
+            lu.solve([by]);
+            if by.iter().any(|x| !x.is_finite()) {
                 return;
             }
             // The whole step is taken, or as much of it as makes Φ smaller.
@@ -482,7 +514,7 @@ impl Problem {
             let known = work.missed;
             work.interior.next(&mut z, round == 0);
             self.polish(&z, (Pace::Bold, STEPS), work);
-            if work.missed > TOLERABLE {
+            if work.missed > GOOD {
                 self.polish(&z, (Pace::Cautious, STEPS), work);
             }
             if work.is_done_since(known) {
@@ -867,65 +899,13 @@ fn size_of(z: &[f64]) -> f64 {
     z.iter().fold(1.0_f64, |size, z| size.max(z.abs()))
 }
 
-/// Solves a system of equations in place, by elimination with the greatest pivot of each column; whether it is regular.
-fn eliminate(a: &mut [f64], exchanges: &mut Vec<usize>, x: &mut [f64]) -> bool {
-    let is_regular = factor(a, exchanges);
-    if is_regular {
-        solve_factored(a, exchanges, x);
-    }
-    is_regular && x.iter().all(|x| x.is_finite())
-}
-
-/// Factors a matrix in place, with the greatest pivot of each column: `exchanges` are the rows that are exchanged for it. Whether it is regular.
-fn factor(a: &mut [f64], exchanges: &mut Vec<usize>) -> bool {
-    let n = a.len().isqrt();
-    exchanges.clear();
-    for k in 0..n {
-        let mut best = (k, 0.0_f64);
-        for i in k..n {
-            let size = a[i * n + k].abs();
-            if size > best.1 {
-                best = (i, size);
-            }
-        }
-        let (row, size) = best;
-        if size == 0.0 {
-            return false;
-        }
-        exchanges.push(row);
-        if row != k {
-            let (above, below) = a.split_at_mut(row * n);
-            above[k * n..][..n].swap_with_slice(&mut below[..n]);
-        }
-        let (above, below) = a.split_at_mut((k + 1) * n);
-        let pivot = &above[k * n + k..][..n - k];
-        for row in below.chunks_exact_mut(n) {
-            if row[k] == 0.0 {
-                continue;
-            }
-            let factor = row[k] / pivot[0];
-            row[k] = factor;
-            for (x, above) in row[k + 1..].iter_mut().zip(&pivot[1..]) {
-                *x -= factor * above;
-            }
-        }
-    }
-    true
-}
-
-/// Solves with what [`factor`] has made of a matrix.
-fn solve_factored(a: &[f64], exchanges: &[usize], x: &mut [f64]) {
-    let n = x.len();
-    for (k, &row) in exchanges.iter().enumerate() {
-        x.swap(k, row);
-    }
-    for i in 0..n {
-        x[i] -= dot(&a[i * n..][..i], &x[..i]);
-    }
-    for i in (0..n).rev() {
-        let known = dot(&a[i * n + i + 1..][..n - i - 1], &x[i + 1..]);
-        x[i] = (x[i] - known) / a[i * n + i];
-    }
+/// Factors a matrix of rows; whether it is regular.
+fn factor_rows(rows: &[f64], n: usize, lu: &mut Lu<1>) -> bool {
+    lu.resize(n);
+    lu.factor(|j, [column]| {
+        let entries = rows.iter().skip(j).step_by(n.max(1));
+        column.iter_mut().zip(entries).for_each(|(to, x)| *to = *x);
+    })
 }
 
 /// The direction between two, at which a function has these values of different signs, where it is 0. By the regula falsi, in which the value at an end that

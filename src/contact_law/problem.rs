@@ -819,41 +819,104 @@ mod tests {
             let Ok(Answer { forces, .. }) = solve(&contacts, &g, &b, None) else {
                 panic!("case {case} of {} feet was not solved", contacts.len() / 2);
             };
-            let rate = |i: usize| {
-                let row = g[i * b.len()..][..b.len()].iter();
-                let terms = row.zip(forces.as_flattened());
-                b[i] + terms.map(|(g, force)| g * force).sum::<f64>()
+            check(case, &contacts, (&g, &b), &forces);
+        }
+    }
+
+    /// The conditions themselves, and not Φ.
+    fn check(
+        case: usize,
+        contacts: &[ContactUnknowns],
+        (g, b): (&[f64], &[f64]),
+        forces: &[[f64; 2]],
+    ) {
+        let rate = |i: usize| {
+            let row = g[i * b.len()..][..b.len()].iter();
+            let terms = row.zip(forces.as_flattened());
+            b[i] + terms.map(|(g, force)| g * force).sum::<f64>()
+        };
+        let fastest = b.iter().fold(0.0_f64, |most, b| most.max(b.abs()));
+        let hardest = forces
+            .iter()
+            .fold(0.0_f64, |most, force| most.max(force[0]));
+        for k in (0..contacts.len()).step_by(2) {
+            let ContactUnknowns::Both { friction, .. } = contacts[k] else {
+                panic!("the first of two tangents");
             };
-            let fastest = b.iter().fold(0.0_f64, |most, b| most.max(b.abs()));
-            let hardest = forces
-                .iter()
-                .fold(0.0_f64, |most, force| most.max(force[0]));
-            for k in (0..contacts.len()).step_by(2) {
-                let ContactUnknowns::Both { friction, .. } = contacts[k] else {
-                    panic!("the first of two tangents");
-                };
-                let (normal, force) = (forces[k][0], [forces[k][1], forces[k + 1][1]]);
-                let (opens, slip) = (rate(2 * k), [rate(2 * k + 1), rate(2 * k + 3)]);
-                let size = force[0].hypot(force[1]);
-                let power = force[0] * slip[0] + force[1] * slip[1];
-                let lost = friction * normal * slip[0].hypot(slip[1]);
-                // Φ is at most 1e-10, and a power is a product of two numbers of which each may be off by that.
-                let within = 1e-9;
-                assert!(normal >= -within * hardest, "case {case}: {normal}");
-                assert!(opens >= -within * fastest, "case {case}: {opens}");
-                let closed = (normal * opens).abs();
-                assert!(
-                    closed <= within * hardest * fastest,
-                    "case {case}: {closed}"
-                );
-                let most = friction * normal + within * hardest;
-                assert!(size <= most, "case {case}: {size} of {most}");
-                let missed = (power + lost).abs();
-                assert!(
-                    missed <= within * hardest * fastest,
-                    "case {case}: {missed}"
-                );
+            let (normal, force) = (forces[k][0], [forces[k][1], forces[k + 1][1]]);
+            let (opens, slip) = (rate(2 * k), [rate(2 * k + 1), rate(2 * k + 3)]);
+            let size = force[0].hypot(force[1]);
+            let power = force[0] * slip[0] + force[1] * slip[1];
+            let lost = friction * normal * slip[0].hypot(slip[1]);
+            // Φ is at most 1e-10, and a power is a product of two numbers of which each may be off by that.
+            let within = 1e-9;
+            assert!(normal >= -within * hardest, "case {case}: {normal}");
+            assert!(opens >= -within * fastest, "case {case}: {opens}");
+            let closed = (normal * opens).abs();
+            assert!(
+                closed <= within * hardest * fastest,
+                "case {case}: {closed}"
+            );
+            let most = friction * normal + within * hardest;
+            assert!(size <= most, "case {case}: {size} of {most}");
+            let missed = (power + lost).abs();
+            assert!(
+                missed <= within * hardest * fastest,
+                "case {case}: {missed}"
+            );
+        }
+    }
+
+    /// Bodies on four feet each that all but stop: some stick with less than all of their friction, and the rest slips as slowly as is asked, so that it uses all of
+    /// it. The impulses that do so are known, and others may do the same.
+    fn nearly_stopped_pile(
+        seed: &mut u64,
+        case: usize,
+        slip: f64,
+    ) -> (Vec<ContactUnknowns>, Vec<f64>, Vec<f64>) {
+        let (contacts, g, mut b) = pile(seed, case);
+        let width = b.len();
+        let ContactUnknowns::Both { friction, .. } = contacts[0] else {
+            panic!("the first of two tangents");
+        };
+        let (mut impulses, mut rates) = (vec![0.0; width], vec![0.0; width]);
+        for body in 0..contacts.len() / 8 {
+            let [x, y, turn] = [0; 3].map(|_| drawn(seed));
+            let sticks = drawn(seed) > 0.7;
+            for (foot, [side, front]) in
+                ([[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].into_iter()).enumerate()
+            {
+                // As a body slips that moves and turns.
+                let way = [x - 0.5 * turn * front, y + 0.5 * turn * side];
+                let length = way[0].hypot(way[1]);
+                let normal = 1.5 + drawn(seed);
+                let used = friction * normal * if sticks { 0.9 } else { 1.0 };
+                let first = 2 * (4 * body + foot);
+                impulses[2 * first] = normal;
+                for (part, way) in [1, 3].into_iter().zip(way) {
+                    impulses[2 * first + part] = -used * way / length;
+                    rates[2 * first + part] = if sticks { 0.0 } else { slip * way };
+                }
             }
+        }
+        for ((b, rate), row) in b.iter_mut().zip(&rates).zip(g.chunks_exact(width)) {
+            let terms = row.iter().zip(&impulses);
+            *b = rate - terms.map(|(g, impulse)| g * impulse).sum::<f64>();
+        }
+        (contacts, g, b)
+    }
+
+    /// However slowly feet slip that use all of their friction, impulses are found.
+    #[test]
+    fn impulses_of_feet_that_all_but_stop_are_found() {
+        let mut seed = 4711;
+        for case in 0..260 {
+            let slip = 10.0_f64.powi(-(case as i32 % 13));
+            let (contacts, g, b) = nearly_stopped_pile(&mut seed, case / 13, slip);
+            let Ok(answer) = solve(&contacts, &g, &b, None) else {
+                panic!("case {case} with slips of {slip} was not solved");
+            };
+            check(case, &contacts, (&g, &b), &answer.forces);
         }
     }
 

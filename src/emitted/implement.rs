@@ -16,6 +16,7 @@
 //! accelerations { (p, t, q, v, u) Accelerations { p, q } }    a call as a value; or `none`, or `friction`
 //! system {
 //!     costs series_cost(p) = [6.4, 9.6];              with a series, the costs of its steps
+//!     more powers_cost(p) = [0.2, 3.1, 4.2];          and, with work or losses, what these add to an evaluation and to steps
 //!     number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);   a method of `System`: what it gives, what it is
 //!     vector bias(p, t, q, v);                                    given, and the call; zeros where there is no call
 //! }
@@ -708,6 +709,13 @@ macro_rules! implement_method {
     ($types:tt costs $method:ident($p:ident) = $value:expr) => {
         fn $method(&self) -> ::core::option::Option<[::core::primitive::f64; 2]> {
             ::core::option::Option::Some($value)
+        }
+    };
+
+    // What powers add to these costs.
+    ($types:tt more $method:ident($p:ident) = $value:expr) => {
+        fn $method(&self) -> [::core::primitive::f64; 3] {
+            $value
         }
     };
 

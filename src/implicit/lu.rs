@@ -86,6 +86,12 @@ pub(crate) struct Lu<const P: usize> {
     pivots: Vec<usize>,
 }
 
+impl<const P: usize> Default for Lu<P> {
+    fn default() -> Self {
+        Self::new(0)
+    }
+}
+
 impl<const P: usize> Lu<P> {
     /// Memory for `n` unknowns.
     pub fn new(n: usize) -> Self {
@@ -95,6 +101,16 @@ impl<const P: usize> Lu<P> {
             inverses: std::vec![[0.0; P]; n],
             pivots: std::vec![0; n],
         }
+    }
+
+    /// Makes room for another number of unknowns.
+    pub fn resize(&mut self, n: usize) {
+        self.n = n;
+        for part in &mut self.parts {
+            part.resize(n * n, 0.0);
+        }
+        self.inverses.resize(n, [0.0; P]);
+        self.pivots.resize(n, 0);
     }
 
     /// Factorizes the matrix whose columns this writes, each given its index and its parts, by elimination with partial pivoting; returns

@@ -23,8 +23,9 @@ impl Linearize for InterpretedSystem {
         by_rates: &mut Vec<f64>,
     ) -> Result<(), Singular> {
         let n = q.len();
-        if !self.program.contacts.is_empty() || !self.program.unilateral.is_empty() {
-            // Sticking contacts have no linearization, and the law of sliding ones is not differentiated.
+        if !self.program.contacts.is_empty() {
+            // Sticking contacts have no linearization, and the law of sliding ones is not differentiated. Those of unilateral
+            // contacts are those with all of them open, as the accelerations are.
             return Err(Singular {
                 at: Pivot::NotDifferentiated(0),
                 ratio: 0.0,

@@ -107,9 +107,22 @@ impl MotionSeries {
     pub(super) fn cost(&self, program: &Program) -> Option<[f64; 2]> {
         let series = self.known().series.as_ref().ok()?;
         let accelerations = program.function(Role::Accelerations)?;
-        let costs = series.cost(accelerations.cost());
-        Some(costs.map(|cost| format!("{cost:.1}").parse().unwrap_or(cost)))
+        Some(rounded(series.cost(accelerations.cost())))
     }
+
+    /// What powers add to them ([`System::powers_cost`](crate::System::powers_cost)).
+    pub(super) fn cost_of_powers(&self, program: &Program) -> Option<[f64; 3]> {
+        let series = self.known().series.as_ref().ok()?;
+        let accelerations = program.function(Role::Accelerations)?.cost();
+        Some(rounded(
+            series.cost_of_powers(accelerations, program.costs_of_powers()),
+        ))
+    }
+}
+
+/// Costs as emitted code has them.
+fn rounded<const N: usize>(costs: [f64; N]) -> [f64; N] {
+    costs.map(|cost| format!("{cost:.1}").parse().unwrap_or(cost))
 }
 
 /// About how many evaluations of the accelerations take as long as the derivation of the series of a machine with this program

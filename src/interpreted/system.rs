@@ -202,9 +202,6 @@ impl System for InterpretedSystem {
     }
 
     fn check_series(&self) -> Result<(), &str> {
-        if !self.program.unilateral.is_empty() {
-            return Err("it has contacts that close and open");
-        }
         match &self.series.known().series {
             Ok(_) => Ok(()),
             Err(reason) => Err(reason),
@@ -215,9 +212,16 @@ impl System for InterpretedSystem {
         self.series.cost(&self.program)
     }
 
+    fn powers_cost(&self) -> [f64; 3] {
+        if !self.has_powers() {
+            return [0.0; 3];
+        }
+        let costs = self.series.cost_of_powers(&self.program);
+        costs.unwrap_or_default()
+    }
+
     fn series_derivation(&self) -> Option<f64> {
         let may_have_one = self.program.contacts.is_empty()
-            && self.program.unilateral.is_empty()
             && self.program.constraints.iter().all(|of| of.holonomic);
         let evaluations = || match may_have_one {
             true => motion_series::derivation(&self.program),

@@ -34,6 +34,9 @@ pub(super) struct HeldBounds<V> {
     rates_matter: Option<bool>,
 }
 
+/// All times.
+const ANY_TIME: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
 /// By how many of their widths bounds are widened at first, and at least.
 const WIDENING: [f64; 2] = [4.0, 0.25];
 
@@ -48,7 +51,8 @@ impl<V: Vector> HeldBounds<V> {
         }
     }
 
-    /// Whether all assumptions are known to hold throughout a step whose bounds are known, and throughout wider ones, for rates of any size.
+    /// Whether all assumptions are known to hold throughout a step whose bounds are known, and throughout wider ones, for rates of any size; at any time, if
+    /// they do not depend on it.
     fn hold_for_any_rates<S: System<Vector = V>>(&mut self, system: &S, t: [f64; 2]) -> bool {
         let Self {
             known,
@@ -59,8 +63,14 @@ impl<V: Vector> HeldBounds<V> {
         let [low, high] = &mut wider.v;
         low.as_mut_slice().fill(f64::NEG_INFINITY);
         high.as_mut_slice().fill(f64::INFINITY);
-        for widening in [self.widening, 0.0] {
-            let wider_t = widened(None, t, widening);
+        let wide = self.widening;
+        let attempts = [
+            (wide, ANY_TIME),
+            (0.0, ANY_TIME),
+            (wide, widened(None, t, wide)),
+            (0.0, t),
+        ];
+        for (widening, wider_t) in attempts {
             for i in 0..of_step.q[0].as_slice().len() {
                 let at = [0, 1].map(|end: usize| of_step.q[end].as_slice()[i]);
                 let wide = widened(None, at, widening);
@@ -87,6 +97,15 @@ impl<V: Vector> HeldBounds<V> {
         (coefficients, h): (&[V], f64),
         (t, q, v): (f64, &V, &V),
     ) -> bool {
+        if let Some((known_t, known)) = &self.known
+            && contain(*known_t, [t.min(t + h), t.max(t + h)])
+            && match self.rates_matter {
+                Some(false) => known.contain::<false>(coefficients, h, [q, v]),
+                _ => known.contain::<true>(coefficients, h, [q, v]),
+            }
+        {
+            return true;
+        }
         let are_finite = match self.rates_matter {
             Some(false) => self.of_step.of_step::<false>(coefficients, h, [q, v]),
             _ => self.of_step.of_step::<true>(coefficients, h, [q, v]),

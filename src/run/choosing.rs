@@ -34,7 +34,7 @@ pub(super) const CANDIDATES: [&Method; 4] = [
 ];
 
 /// Number of evaluations in a step of `dop853`.
-const EVALUATIONS: f64 = 12.0;
+pub(super) const EVALUATIONS: f64 = 12.0;
 
 /// The search for the end of assumptions that are not linear, in a step by series, takes about as long as this many evaluations, with 12 coefficients as
 /// well as with 20: half of a step of the spherical pendulum, measured where no bounds of the coordinates decided (`docs/benchmarks.md`).
@@ -56,21 +56,21 @@ const STEPS_BETWEEN_TESTS: usize = 100;
 
 /// Number of steps by series between evaluations of the fastest rate, each of which takes some two evaluations for each coordinate: at first, and at most.
 /// It doubles with each look that finds steps shorter than [`COMFORTABLE`] of what is stable.
-const STEPS_BETWEEN_LOOKS: [usize; 2] = [64, 1024];
+pub(super) const STEPS_BETWEEN_LOOKS: [usize; 2] = [64, 1024];
 
 /// Of steps by series, limited by accuracy, those of a harmonic motion are 0.55 of the longest that are stable.
 const COMFORTABLE: f64 = 0.75;
 
 /// A run that takes no more steps by series than this if all are as long as the first has no look at its start, which would take as long as some of
-/// them. If its steps turn out to be shorter, the first look comes after so many.
-const SHORT_RUN: usize = 32;
+/// them. If its steps turn out to be shorter, the first look comes after so many, as between two looks.
+const SHORT_RUN: usize = STEPS_BETWEEN_LOOKS[0];
 
 /// A series is derived on demand when the evaluations by `dop853` so far take at least this share of the time that the derivation takes. A run that then ends
 /// earlier than it is given, by an event, has lost at most so many times what it took before.
-const INVESTED: f64 = 0.25;
+pub(super) const INVESTED: f64 = 0.25;
 
 /// And when those to come, if steps stay as long as they have been, take so many times as long: steps by series then cost less than half of them.
-const WORTH: f64 = 2.0;
+pub(super) const WORTH: f64 = 2.0;
 
 /// Stability limits a step by series if it is longer than this, in units of the inverse of the fastest rate: 0.86 of where the stability
 /// regions of the series of orders 12 and 20 end on the negative real axis, 5.82 and 8.82. A harmonic motion of size 1 takes, at the same
@@ -93,7 +93,7 @@ const WINDOWS: [usize; 2] = [2, 16];
 
 /// Least number of explicit steps by which the cost before a change to an implicit method is measured: of those that stability limits, the test
 /// has seen 15.
-const MEASURED: usize = 16;
+pub(super) const MEASURED: usize = 16;
 
 /// After a change to an implicit method that never cost less, so many times as many explicit steps are taken until the next test.
 const PATIENCE: usize = 4;
@@ -104,6 +104,8 @@ const MOST_STEPS_BETWEEN_TESTS: usize = 1000;
 /// State of the choice of methods in a run.
 #[derive(Debug)]
 pub(super) struct Choosing {
+    /// Whether the run chooses its method, and whether it may change it at any instant: not with unilateral contacts.
+    is_automatic: bool,
     is_free: bool,
     pub choices: Vec<MethodChoice>,
     /// Time, work and multiplications at the beginning of the window.
@@ -122,7 +124,7 @@ pub(super) struct Choosing {
     has_paid: bool,
     between_tests: usize,
     /// The number of steps, of the whole run, after which the fastest rate is found next while it goes by series, and the number until the one after that.
-    next_look: usize,
+    pub next_look: usize,
     between_looks: usize,
     /// The evaluations that take as long as the derivation of the series, until it is derived; `None` if it never is.
     derivation: Option<f64>,
@@ -141,6 +143,7 @@ impl Choosing {
     /// For a run whose method is given.
     pub fn none() -> Self {
         Self {
+            is_automatic: false,
             is_free: false,
             choices: Vec::new(),
             since: (0.0, Work::default(), 0.0),
@@ -162,10 +165,16 @@ impl Choosing {
         self.is_free
     }
 
+    /// Whether the run chooses its method.
+    pub fn is_automatic(&self) -> bool {
+        self.is_automatic
+    }
+
     /// For a run that begins with a method of its own choice.
     pub fn begun(t: f64, beginning: Beginning, may_change: bool) -> Self {
         let Beginning { method, reason, .. } = beginning;
         Self {
+            is_automatic: true,
             is_free: may_change,
             choices: [MethodChoice { t, method, reason }].into(),
             derivation: beginning.derivation,
@@ -202,7 +211,7 @@ pub(super) struct Beginning {
     /// The evaluations that the choice took.
     pub evaluations: usize,
     /// The evaluations that take as long as the derivation of the series, if that is done on demand.
-    derivation: Option<f64>,
+    pub derivation: Option<f64>,
 }
 
 impl Beginning {
@@ -217,19 +226,39 @@ impl Beginning {
     }
 }
 
-/// The method to begin with at this state, at the signed distance `left` from the end.
+/// The rest of a run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ahead {
+    /// The signed distance from the end, in s.
+    pub left: f64,
+    /// Whether the energy balance is kept.
+    pub keeps_balance: bool,
+}
+
+impl Ahead {
+    /// What the energy balance adds, as [`System::powers_cost`] gives it; nothing if it is not kept.
+    pub fn powers<S: System>(&self, system: &S) -> [f64; 3] {
+        if self.keeps_balance {
+            system.powers_cost()
+        } else {
+            [0.0; 3]
+        }
+    }
+}
+
+/// The method to begin with at this state.
 pub(super) fn first<S: System>(
     system: &S,
     at: (f64, &S::Vector, &S::Vector),
     tolerance: &Tolerance<S::Vector>,
-    (left, inputs_stay): (f64, bool),
+    (ahead, inputs_stay): (Ahead, bool),
 ) -> Beginning {
     let explicit = Beginning::with(Method::DOP853, MethodReason::Explicit);
     if !inputs_stay {
         return explicit;
     }
     match system.series_derivation() {
-        None => by_costs(system, at, tolerance, left).unwrap_or(explicit),
+        None => by_costs(system, at, tolerance, ahead).unwrap_or(explicit),
         derivation => Beginning {
             derivation,
             ..explicit
@@ -237,12 +266,15 @@ pub(super) fn first<S: System>(
     }
 }
 
-/// The method that costs less from this state on, at the signed distance `left` from the end: by series or `dop853`. `None` if there is no series.
-fn by_costs<S: System>(
+/// The method that costs less from this state on: by series or `dop853`. `None` if there is no series.
+///
+/// Where the energy balance is kept, steps of both methods also integrate powers. `dop853` evaluates them at its stages, and they count in the cost of an
+/// evaluation; a step by series, which has no stages, computes states within it for that.
+pub(super) fn by_costs<S: System>(
     system: &S,
     (t, q, v): (f64, &S::Vector, &S::Vector),
     tolerance: &Tolerance<S::Vector>,
-    left: f64,
+    ahead: Ahead,
 ) -> Option<Beginning> {
     system.check_series().ok()?;
     let costs = system.series_cost()?;
@@ -253,15 +285,17 @@ fn by_costs<S: System>(
         && system.assumptions(t, q, v, &inputs).len() != 0
         && !system.assumptions_hold_within([t; 2], [q; 2], [v; 2]);
     let search = if is_searched { SEARCH } else { 0.0 };
-    let cost = costs[order] + search;
+    let [more, of_powers @ ..] = ahead.powers(system);
+    let cost = costs[order] + search + of_powers[order];
     let assumed = steps_for_one(finest);
-    let mut saved = EVALUATIONS * assumed;
+    let of_step = EVALUATIONS * (1.0 + more);
+    let mut saved = of_step * assumed;
     let mut evaluations = 0;
     if (saved / SPREAD..saved * SPREAD).contains(&cost) {
         let at = (t, q, v);
-        if let Some(found) = compare(system, at, tolerance, (finest, left, assumed)) {
+        if let Some(found) = compare(system, at, tolerance, (finest, ahead.left, assumed)) {
             let is_damped = usize::from(is_damped(system, (t, q)));
-            saved = EVALUATIONS * ACCUMULATION[is_damped][order] * found.steps;
+            saved = of_step * ACCUMULATION[is_damped][order] * found.steps;
             evaluations = found.evaluations;
         }
     }
@@ -315,7 +349,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Changes to another method if that costs less. Call it after an accepted step, when no instant within the next one has to be met.
     pub(super) fn choose_again(&mut self) -> Result<(), Error> {
-        if !self.choosing.is_free || self.stepper.is_done() {
+        if self.stepper.is_done() {
+            return Ok(());
+        }
+        if <M::System as System>::MAY_COLLIDE && self.stepper.touching().is_some() {
+            return self.choose_in_flight();
+        }
+        if !self.choosing.is_free {
             return Ok(());
         }
         if self.stepper.is_implicit() {
@@ -356,7 +396,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         self.choosing.derivation = None;
         let at = (t, self.stepper.q(), self.stepper.v());
-        let beginning = by_costs(self.model.system, at, self.stepper.tolerance(), left);
+        let keeps_balance = self.stepper.quadratures().integrals().is_some();
+        let ahead = Ahead {
+            left,
+            keeps_balance,
+        };
+        let beginning = by_costs(self.model.system, at, self.stepper.tolerance(), ahead);
         let Some(beginning) = beginning else {
             return Ok(());
         };
@@ -381,16 +426,20 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 | StepError::NotFinite { .. }
                 | StepError::StepTooSmall { .. }
         );
-        self.choosing.is_free
+        let leaves = (self.choosing.is_free || self.flights.by_series)
             && is_of_series
             && self.stepper.coefficients().is_some()
             && self
                 .change_method(Method::DOP853, MethodReason::NoSeries)
-                .is_ok()
+                .is_ok();
+        if leaves {
+            self.stepper.lengthen_step_that_is_too_small();
+        }
+        leaves
     }
 
     /// The fastest rate, if it makes steps by series unstable.
-    fn rate_beyond_series(&mut self) -> Option<f64> {
+    pub(super) fn rate_beyond_series(&mut self) -> Option<f64> {
         let length = self.stepper.length_in_series()?;
         let is_fine = finest_tolerance(self.stepper.tolerance()) <= taylor::FINE;
         let reach = REACH_OF_SERIES[usize::from(is_fine)];
@@ -498,7 +547,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.change_method(Method::DOP853, MethodReason::NotStiff { rate })
     }
 
-    fn change_method(
+    pub(super) fn change_method(
         &mut self,
         method: &'static Method,
         reason: MethodReason,
@@ -507,11 +556,17 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let (q, v) = (self.stepper.q(), self.stepper.v());
             return Err(self.model.explain(error, q, v));
         }
+        self.choosing.begun = self.tried();
+        self.choosing.marks = [self.choosing.begun; 2];
+        self.note_method(method, reason);
+        Ok(())
+    }
+
+    /// Takes note of the method by which the run goes on.
+    pub(super) fn note_method(&mut self, method: &'static Method, reason: MethodReason) {
         if let Some(steps) = &mut self.record.steps {
             steps.begin_method(method);
         }
-        self.choosing.begun = self.tried();
-        self.choosing.marks = [self.choosing.begun; 2];
         let t = self.stepper.t();
         // A method that was chosen at the start and left before the first step was never used.
         let choices = &mut self.choosing.choices;
@@ -520,6 +575,5 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if !(choices.last()).is_some_and(|last| std::ptr::eq(last.method, method)) {
             choices.push(MethodChoice { t, method, reason });
         }
-        Ok(())
     }
 }

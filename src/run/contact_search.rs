@@ -3,6 +3,7 @@
 //! Each step is looked at several times. Only where a look shows that something may have changed since the one before it, the instant is searched
 //! for on dense output.
 
+use std::boxed::Box;
 use std::vec;
 use std::vec::Vec;
 
@@ -62,6 +63,13 @@ pub(super) struct FoundChange {
     pub closes: bool,
 }
 
+/// How often the part of a step by series before a change is looked at again, and up to which part of it: at the change itself the gap is 0.
+const MOST_REPETITIONS: usize = 8;
+const BEFORE_CHANGE: f64 = 0.99;
+
+/// A change after this part of what was looked at needs no second look: about as many looks are before it as in a step of another method.
+const ENOUGH: f64 = 0.4;
+
 /// What a look at an instant of a step shows of the contacts.
 #[derive(Clone, Debug, Default)]
 struct Look {
@@ -82,7 +90,7 @@ pub(super) struct ContactLooks<V, M> {
     falls: Vec<f64>,
     /// Which contacts with two tangents have slipped faster than errors of rates since they began to.
     faster: Vec<bool>,
-    memory: Option<ContactMemory<V, M>>,
+    memory: Option<Box<ContactMemory<V, M>>>,
 }
 
 impl<V, M> Default for ContactLooks<V, M> {
@@ -173,15 +181,47 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         interpolant: &mut LastInterpolant<M>,
     ) -> Result<Option<(f64, FoundChange)>, Error> {
         let mut looks = core::mem::take(&mut self.contact_looks);
-        let found = self.contact_found_with(&mut looks, interpolant);
+        let found = self.first_change(&mut looks, interpolant);
         self.contact_looks = looks;
         found
     }
 
+    /// [`contact_found`](Self::contact_found) with this memory. A step by series may be many times as long as the motion up to the change, with few looks before it:
+    /// that part is then looked at again.
+    fn first_change(
+        &mut self,
+        looks: &mut ContactLooks<VectorOf<M>, <M::System as System>::Matrix>,
+        interpolant: &mut LastInterpolant<M>,
+    ) -> Result<Option<(f64, FoundChange)>, Error> {
+        let mut first = self.contact_found_with(looks, interpolant, 1.0)?;
+        if self.stepper.coefficients().is_none() {
+            return Ok(first);
+        }
+        let mut looked_at = 1.0;
+        for _ in 0..MOST_REPETITIONS {
+            let Some((t, _)) = first else {
+                break;
+            };
+            let until = (t - self.stepper.t_before()) / self.stepper.last_step();
+            if until > ENOUGH * looked_at {
+                break;
+            }
+            looked_at = until;
+            let earlier = self.contact_found_with(looks, interpolant, BEFORE_CHANGE * until)?;
+            if earlier.is_none_or(|(earlier, _)| earlier >= t) {
+                break;
+            }
+            first = earlier;
+        }
+        Ok(first)
+    }
+
+    /// When contacts change in this part of the last step, from its beginning on.
     fn contact_found_with(
         &mut self,
         looks: &mut ContactLooks<VectorOf<M>, <M::System as System>::Matrix>,
         interpolant: &mut LastInterpolant<M>,
+        part: f64,
     ) -> Result<Option<(f64, FoundChange)>, Error> {
         let ContactLooks {
             before,
@@ -195,8 +235,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let Some(touching) = self.stepper.touching() else {
             return Ok(None);
         };
-        let memory =
-            memory.get_or_insert_with(|| ContactMemory::new(touching, self.stepper.q_before()));
+        let memory = memory
+            .get_or_insert_with(|| Box::new(ContactMemory::new(touching, self.stepper.q_before())));
         before.theta = 0.0;
         let place = (
             self.stepper.t_before(),
@@ -205,7 +245,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         );
         touching.write_clearances(system, place, memory, &mut before.clearances);
         let count = count_of_looks(system, &self.stepper, memory);
-        let thetas = (1..=count).map(|look| look as f64 / count as f64);
+        let thetas = (1..=count).map(|look| part * (look as f64 / count as f64));
         self.write_falls(
             thetas.clone(),
             (&before.clearances, &mut now.clearances),
@@ -242,6 +282,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 }
             }
             core::mem::swap(before, now);
+        }
+        if part < 1.0 {
+            return Ok(None);
         }
         let faded = self.stepper.faded_slip(memory, faster);
         let faded = faded
@@ -611,22 +654,27 @@ fn find_penetration(
     Ok(least.map(|(_, place)| [first.0, place]))
 }
 
-/// Into how many parts the looks at contacts divide the last step: four, and more where something turns far that a gap depends on.
+/// Into how many parts the looks at contacts divide the last step: four, and more where something turns far that a gap depends on. Steps by series are longer: a harmonic
+/// motion advances by up to 2.5 rad with 14 coefficients, and 4.2 rad with 22, so half as many looks as there are coefficients are taken in the longest step that the
+/// tolerance allows, and as many a second in a shorter one.
 fn count_of_looks<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     system: &S,
     stepper: &Stepper<'_, S, L, A>,
     memory: &mut ContactMemory<S::Vector, S::Matrix>,
 ) -> usize {
-    const FEWEST: usize = event::SAMPLE_FRACTIONS.len();
-    let at_once = FEWEST as f64 * TURN_BETWEEN_SAMPLES;
+    let of_series = stepper.coefficients().map_or(0.0, |coefficients| {
+        (0.5 * coefficients.len() as f64 * stepper.part_of_tolerable()).ceil()
+    });
+    let fewest = event::SAMPLE_FRACTIONS.len().max(of_series as usize);
+    let at_once = fewest as f64 * TURN_BETWEEN_SAMPLES;
     if event::turn(system, stepper, |_| true) <= at_once {
-        return FEWEST;
+        return fewest;
     }
     let place = (stepper.t(), stepper.q());
     let turn = event::turn(system, stepper, memory.gap_depends_on(system, place));
     (turn / TURN_BETWEEN_SAMPLES)
         .ceil()
-        .clamp(FEWEST as f64, MOST_SAMPLES) as usize
+        .clamp(fewest as f64, MOST_SAMPLES) as usize
 }
 
 /// Where a gap closes between two looks at an open contact, if it does: not before it has opened, where it begins

@@ -108,7 +108,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     near.is_rate_of_value && next > from && correction < 0.5 * (t - from);
                 if is_within && correction > f64::EPSILON * t.abs() {
                     pending_change.corrected += 1;
-                    self.stepper.retreat(next);
+                    self.stepper.retreat_to_change(next);
                     return Ok(AfterContacts::Step);
                 }
             }
@@ -121,7 +121,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Ok(AfterContacts::Keep);
         };
         let step = self.stepper.last_step();
-        self.stepper.retreat(t);
+        self.stepper.retreat_to_change(t);
         *pending_change = Some(PendingChange {
             change,
             step,
@@ -233,7 +233,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 .map(|(contact, _)| *contact)
                 .collect(),
         });
-        Ok(())
+        self.follow_flights()
     }
 
     /// Where energy went in each contact so far.

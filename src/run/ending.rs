@@ -1,5 +1,6 @@
 //! The end of a run: at an event, and what is made of its records.
 
+use std::boxed::Box;
 use std::vec::Vec;
 
 use super::explained::ExplainedResidual;
@@ -73,7 +74,8 @@ impl<M: Machine> Prepared<'_, '_, M> {
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// Ends the run: returns its results with the energy balance and the warnings.
-    pub(crate) fn end(mut self, ending: Result<Ending, Error>) -> Finished<M> {
+    #[expect(clippy::boxed_local, reason = "out of its box a run would be copied")]
+    pub(crate) fn end(mut self: Box<Self>, ending: Result<Ending, Error>) -> Finished<M> {
         if ending.is_ok() {
             self.change_inputs_at_end();
         }
@@ -90,7 +92,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             callbacks,
             choosing,
             ..
-        } = self;
+        } = *self;
         let system = model.system;
         let end = state(
             system,

@@ -208,7 +208,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         // Impacts that follow each other in many instants are what `order: sequence` asks for.
         let is_called_for = crowd.is_none() || !touching.takes_impacts_in_sequence();
         let is_possible = is_called_for
-            && self.settings.method.kind == MethodKind::RungeKutta
+            && matches!(
+                self.settings.method.kind,
+                MethodKind::RungeKutta | MethodKind::Series
+            )
             && step > 16.0 * f64::EPSILON * t.abs()
             && step.is_finite()
             && touching.check_stepping(t).is_ok();
@@ -286,7 +289,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if self.activity.quiet < self.activity.needed {
             return Ok(());
         }
-        let (method, longest) = (self.settings.method, self.settings.longest_step);
+        let (method, longest) = (self.method_with_contacts(), self.settings.longest_step);
         let step = self.stepper.last_step();
         self.activity.needed *= 2;
         if !self.few_are_closed_in_space() && !self.stepper.contact_forces_are_unique() {
@@ -321,7 +324,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             step: None,
             crowd: None,
         });
-        Ok(())
+        self.follow_flights()
     }
 
     fn few_are_closed_in_space(&self) -> bool {

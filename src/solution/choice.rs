@@ -4,7 +4,7 @@ use core::fmt::{self, Display};
 
 use crate::methods::Method;
 
-/// A choice in a run that [chooses its method](crate::Simulation::automatic).
+/// A choice in a run that [chooses its method](crate::Simulation::automatic), or a change between [`TAYLOR`](crate::TAYLOR) and `dop853` where contacts open and close.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct MethodChoice {
@@ -50,6 +50,10 @@ pub enum MethodReason {
     },
     /// The series has no value at the state that the machine reached.
     NoSeries,
+    /// All unilateral contacts have opened: the motion has a Taylor series, by which this run goes on then.
+    Open,
+    /// A unilateral contact has closed, where a run by Taylor series goes on by an explicit method.
+    Closed,
 }
 
 impl Display for MethodReason {
@@ -76,6 +80,8 @@ impl Display for MethodReason {
                 "the fastest rate is {rate:.1e}/s, and explicit steps are cheaper again"
             ),
             Self::NoSeries => f.write_str("the series has no value there"),
+            Self::Open => f.write_str("all contacts are open"),
+            Self::Closed => f.write_str("a contact is closed"),
         }
     }
 }

@@ -21,12 +21,11 @@ pub(crate) struct Steps<V> {
     stored_stages: Vec<usize>,
     /// The methods of the steps, each with the index of its first step.
     methods: Vec<(usize, &'static Method)>,
-    /// The coefficients of steps by series and by impulses, `of_step` vectors for each.
+    /// The coefficients of steps by series and by impulses.
     coefficients: Vec<V>,
-    of_step: usize,
-    /// Where the coefficients of each step begin; `None` for Runge–Kutta steps. Steps after the last one with coefficients
-    /// have no entry.
-    series: Vec<Option<usize>>,
+    /// Where the coefficients of each step begin, and how many there are; `None` for Runge–Kutta steps. Steps after the last one with
+    /// coefficients have no entry.
+    series: Vec<Option<(usize, usize)>>,
 }
 
 impl<V: Vector> Steps<V> {
@@ -41,14 +40,16 @@ impl<V: Vector> Steps<V> {
             stored_stages: (0..MAX_STAGES).filter(is_kept).collect(),
             methods: [(0, method)].into(),
             coefficients: Vec::new(),
-            of_step: 0,
             series: Vec::new(),
         }
     }
 
     /// Records that the next step belongs to another method.
     pub fn begin_method(&mut self, method: &'static Method) {
-        self.methods.push((self.times.len(), method));
+        let is_known = (self.methods.last()).is_some_and(|(_, last)| core::ptr::eq(*last, method));
+        if !is_known {
+            self.methods.push((self.times.len(), method));
+        }
     }
 
     /// The method of a step.
@@ -65,8 +66,7 @@ impl<V: Vector> Steps<V> {
         self.vectors.truncate(self.times.len() * self.stride());
         self.times.push((stepper.beginning(), stepper.last_step()));
         if let Some(coefficients) = stepper.coefficients() {
-            self.of_step = coefficients.len();
-            self.begin_series();
+            self.begin_series(coefficients.len());
             self.coefficients.extend_from_slice(coefficients);
         }
         self.vectors.push(stepper.q_before().clone());
@@ -93,23 +93,25 @@ impl<V: Vector> Steps<V> {
         };
         self.times
             .push((now, 0.0_f64.copysign(stepper.last_step())));
-        if stepper.coefficients().is_some() && self.of_step != 0 {
+        if let Some(coefficients) = stepper.coefficients()
+            && !self.coefficients.is_empty()
+        {
             // For a step by series of length zero, coordinates and rates are its only coefficients.
             let zeros = stepper.q().zeros_like();
             let state = [stepper.q().clone(), stepper.v().clone()];
-            self.begin_series();
-            let count = self.coefficients.len() + self.of_step;
+            self.begin_series(coefficients.len());
+            let count = self.coefficients.len() + coefficients.len();
             self.coefficients.extend(state);
             self.coefficients.resize(count, zeros);
         }
         self.vectors.resize(self.times.len() * self.stride(), last);
     }
 
-    /// Records that the coefficients of the newest step follow.
-    fn begin_series(&mut self) {
+    /// Records that this many coefficients of the newest step follow.
+    fn begin_series(&mut self, count: usize) {
         self.series.resize(self.times.len(), None);
         if let Some(newest) = self.series.last_mut() {
-            *newest = Some(self.coefficients.len());
+            *newest = Some((self.coefficients.len(), count));
         }
     }
 
@@ -145,8 +147,8 @@ impl<V: Vector> Steps<V> {
         accelerations: impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
     ) -> Result<Interpolant<V>, StepError> {
         let (start, h) = self.times[step];
-        if let Some(Some(from)) = self.series.get(step) {
-            let coefficients = &self.coefficients[*from..][..self.of_step];
+        if let Some(Some((from, count))) = self.series.get(step) {
+            let coefficients = &self.coefficients[*from..][..*count];
             return Ok(Interpolant::of_series(start, h, coefficients));
         }
         let method = self.method(step);

@@ -2,14 +2,18 @@
 
 use super::{Stepper, Stiffness};
 use crate::balance::Quadratures;
+use crate::control::shortest_step;
 use crate::implicit::Implicit;
 use crate::implicit::jacobian::Jacobian;
 use crate::inputs::InputLaw;
-use crate::methods::{Method, MethodKind};
+use crate::methods::{MAX_STAGES, Method, MethodKind};
 use crate::taylor::Taylor;
 use crate::tolerance::Tolerance;
 use crate::{StepError, System, Vector};
 use std::boxed::Box;
+
+/// By how much the first step of an explicit method is shorter than the last one by series: steps by series are longer by up to four times.
+const SHORTER: f64 = 0.25;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Continues with `method`, a Runge–Kutta method or one by series. The next step keeps its length for the first try.
@@ -21,9 +25,56 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.stiffness = Stiffness::default();
         if method.kind == MethodKind::Series {
             self.taylor = Some(Box::new(Taylor::new(&self.tolerance)));
+            self.forget_powers();
             self.expand()?;
         }
         self.switch_method(method, self.longest)
+    }
+
+    /// Continues with `method` where contacts have just changed and the accelerations are known: with an explicit one, or by series if all contacts are open.
+    pub(crate) fn change_where_contacts_did(
+        &mut self,
+        method: &'static Method,
+    ) -> Result<(), StepError> {
+        let is_series = method.kind == MethodKind::Series;
+        if !core::ptr::eq(self.method, method) {
+            if self.taylor.is_some() {
+                self.control.step *= SHORTER;
+            }
+            self.taylor = is_series.then(|| Box::new(Taylor::new(&self.tolerance)));
+            self.forget_powers();
+            self.method = method;
+            // There is no step of the new method yet that could be undone.
+            self.k.swap(0, self.newest);
+            self.newest = 0;
+        }
+        if is_series {
+            self.control.work.evaluations += 1;
+            self.expand()?;
+        }
+        Ok(())
+    }
+
+    /// Chooses the length of the next step as at the start if tries by another method have left none that is long enough.
+    pub(crate) fn lengthen_step_that_is_too_small(&mut self) {
+        let left = (self.end - self.now.t) - self.now.t_low;
+        if self
+            .control
+            .is_too_small(shortest_step::<f64>(self.now.t), left)
+        {
+            self.control.begin_anew();
+            self.control.step = self.first_step();
+        }
+    }
+
+    /// Sets the powers within the last step to 0 for steps that do not evaluate any: they may be those of contacts that were closed.
+    fn forget_powers(&mut self) {
+        if !self.takes_powers() && self.model.touching.is_some() {
+            for stage in 1..MAX_STAGES {
+                self.quadratures.take(stage, 0.0, 0.0);
+                self.quadratures.set_contact_shares(stage, &[]);
+            }
+        }
     }
 
     /// Counts evaluations that were made for the choice of the method.

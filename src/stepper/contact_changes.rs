@@ -4,6 +4,7 @@ use std::boxed::Box;
 use std::vec;
 use std::vec::Vec;
 
+use super::in_series::GROWTH_IN_FLIGHT;
 use super::{Model, Stepper, move_by_rounding};
 use crate::at::At;
 use crate::balance::{ContactShare, Quadratures};
@@ -23,6 +24,9 @@ const MOST_IMPACTS_AT_ONCE: usize = 1000;
 
 /// The next step is at most this many times as long as the flight that follows an impact, so that it does not miss the flight.
 const STEP_TO_FLIGHT_RATIO: f64 = 8.0;
+
+/// The same for a step by series, which is not shortened by its error where few forces act.
+const SERIES_TO_FLIGHT_RATIO: f64 = 2.0;
 
 /// A slip that has stopped is removed without a further question if that changes the kinetic energy by at most this share: a slip is located to the
 /// tolerance of the step, and its square is less.
@@ -74,6 +78,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// The state of the unilateral contacts.
     pub(crate) fn touching(&self) -> &Option<UnilateralState> {
         &self.model.touching
+    }
+
+    /// [Undoes](Self::retreat) the last step, and makes `end` the end of the next one, where contacts change.
+    pub(crate) fn retreat_to_change(&mut self, end: f64) {
+        self.retreat(end);
+        self.ends_at_change = true;
     }
 
     /// Finds out which contacts are near in the last step.
@@ -287,10 +297,16 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             (now.t, &now.q, &now.v, &k[newest]),
         );
         self.end = end;
+        self.longest_first = match flight {
+            Some(flight) if flight > 0.0 => SERIES_TO_FLIGHT_RATIO * flight,
+            _ if step > 0.0 => GROWTH_IN_FLIGHT * step,
+            _ => f64::INFINITY,
+        };
         self.control.step = match flight {
             Some(flight) if flight > 0.0 => step.min(STEP_TO_FLIGHT_RATIO * flight),
             _ => step,
         };
+        self.ends_at_change = false;
         self.control.begin_anew();
         if let Some(implicit) = &mut self.implicit {
             implicit.forget();

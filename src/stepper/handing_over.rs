@@ -89,6 +89,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             // Only the constraints of the machine remain.
             model.constraints = project_onto_closed_contacts(model.system.get(), touching, now)?;
         }
+        self.taylor = None;
         let impulses = InImpulses::new(&self.now.q, &self.now.v);
         self.impulses = Some(Box::new(impulses));
         self.switch_method(Method::MOREAU, h)

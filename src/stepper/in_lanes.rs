@@ -100,12 +100,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// Whether its next try may be made in lanes: not while constraints are dependent or a unilateral contact is closed, which requires
-    /// other equations.
+    /// other equations, and not up to where contacts change, where a motion by series is not expanded.
     pub(crate) fn may_try_in_lanes(&self) -> bool {
         let constraints = self.model.constraints.as_ref();
         let touching = self.model.touching.as_ref();
         touching.is_none_or(UnilateralState::leaves_accelerations)
             && constraints.is_none_or(|constraints| !constraints.redundant && !constraints.at_fork)
+            && !(self.ends_at_change && self.taylor.is_some())
     }
 
     /// Begins a step and its first try.

@@ -4,11 +4,15 @@ use super::Stepper;
 use crate::attempt::{are_finite, not_finite};
 use crate::balance::Quadratures;
 use crate::control::{Control, shortest_step};
+use crate::math::larger;
 use crate::stages::Point;
 use crate::taylor::{
     GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect, size_of_rate,
 };
 use crate::{InputLaw, StepError, System, Vector};
+
+/// A step by series of a machine with unilateral contacts is at most so many times as long as the one before it.
+pub(super) const GROWTH_IN_FLIGHT: f64 = 2.0;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Expands the motion through the present state, for the first step or after something that it depends on has changed.
@@ -32,8 +36,35 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
     }
 
+    /// The longest next step of a machine with unilateral contacts. Where few forces act, the error of a series allows any length, but gaps are looked at only so often in a
+    /// step; so steps grow no faster than by a factor, more slowly than those of other methods may.
+    fn longest_in_flight(&mut self) -> f64 {
+        if self.model.touching.is_none() {
+            return f64::INFINITY;
+        }
+        let Control {
+            is_first,
+            step,
+            last_step,
+            ..
+        } = self.control;
+        match is_first {
+            false => GROWTH_IN_FLIGHT * last_step.abs(),
+            true if self.longest_first.is_infinite() && step == 0.0 => {
+                GROWTH_IN_FLIGHT * self.first_step().abs()
+            }
+            true => self.longest_first,
+        }
+    }
+
+    /// The length of the last step as a part of that which its tolerance allowed.
+    pub(crate) fn part_of_tolerable(&self) -> f64 {
+        (self.control.last_step / self.tolerable).abs().min(1.0)
+    }
+
     /// Chooses the length of the next step. The first step does not exceed a length that was set.
     pub(super) fn choose_length(&mut self) -> Result<(), StepError> {
+        let longest_in_flight = self.longest_in_flight();
         let Self {
             now,
             taylor,
@@ -41,11 +72,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             control: Control { step, work, .. },
             end,
             longest,
+            tolerable,
             ..
         } = self;
         let Some(taylor) = taylor else { return Ok(()) };
         let left = *end - now.t;
-        let mut length = taylor.length(tolerance).min(*longest);
+        *tolerable = taylor.length(tolerance);
+        let mut length = tolerable.min(*longest);
         if length.is_nan() {
             let worst = not_finite_among(taylor.present_coefficients());
             return Err(StepError::NotFinite {
@@ -56,6 +89,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if work.steps == 0 && *step != 0.0 {
             length = length.min(step.abs());
         }
+        length = length.min(longest_in_flight);
         // If the machine does not move, a step is as long as the run.
         *step = length.min(left.abs()).copysign(left);
         Ok(())
@@ -66,12 +100,29 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     pub(super) fn attempt_in_series(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
         self.advance_in_series(h, last)?;
         self.take_powers_along_series(h);
+        if last && self.ends_at_change {
+            self.end_at_change(h);
+            return Ok(0.0);
+        }
         self.expand_ahead()?;
         let error = self.compare_in_series(h)?;
         if error == 0.0 {
             self.take_powers_at_end();
         }
         Ok(error)
+    }
+
+    /// Ends a step of length `h` where contacts change. The motion does not go on along its series, so it is not expanded there; and that the series is the motion
+    /// was seen at the end of the longer step in which the change was found.
+    fn end_at_change(&mut self, h: f64) {
+        let Self {
+            method, k, taylor, ..
+        } = self;
+        if let Some(taylor) = taylor {
+            let accelerations = &mut k[method.tableau.stages];
+            crate::taylor::accelerations(taylor.of_step(), h, accelerations);
+        }
+        self.take_powers_at_end();
     }
 
     /// Goes to the end of a step, and leaves the accelerations by its series there in `stage`.
@@ -94,11 +145,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             });
         }
         // The projection only removes truncation error and rounding.
-        model.project(now)?;
-        if self.takes_powers() {
-            self.leave_accelerations(h);
-        }
-        Ok(())
+        model.project(now).map(|_| ())
     }
 
     /// Whether powers are integrated along its steps.
@@ -106,14 +153,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.quadratures.integrals().is_some() && self.model.system.get().has_powers()
     }
 
-    /// Leaves the accelerations by the series of a step at its end in `stage`.
-    fn leave_accelerations(&mut self, h: f64) {
-        if let Some(taylor) = &self.taylor {
-            crate::taylor::accelerations(taylor.of_step(), h, &mut self.stage.0);
-        }
-    }
-
-    /// Evaluates the powers within a step of length `h`.
+    /// Evaluates the powers within a step of length `h`. The accelerations in `stage` stay there.
     pub(super) fn take_powers_along_series(&mut self, h: f64) {
         if !self.takes_powers() {
             return;
@@ -130,6 +170,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         } = self;
         let Some(taylor) = taylor else { return };
         let stages = method.tableau.stages;
+        // Those of the last stage are not known yet.
+        k[stages].clone_from(&stage.0);
         for (i, k) in k.iter_mut().enumerate().take(stages).skip(1) {
             let tau = method.tableau.c[i] * h;
             let at_stage = [&mut stage.0, &mut stage.1, &mut *k];
@@ -137,7 +179,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             let t = before.t + (before.t_low + tau);
             model.take_rates(quadratures, i, (t, &stage.0, &stage.1, k));
         }
-        self.leave_accelerations(h);
+        core::mem::swap(&mut stage.0, &mut k[stages]);
     }
 
     /// Evaluates the powers at the end of a step.
@@ -264,7 +306,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 #[inline(always)]
 fn size_of_rates<V: Vector>([before, now]: [&Point<V>; 2], i: usize) -> f64 {
     let size = |at: &Point<V>| size_of_rate(at.q.as_slice()[i], at.v.as_slice()[i]);
-    size(before).max(size(now))
+    larger(size(before), size(now))
 }
 
 /// The first coordinate with a coefficient that is not finite.

@@ -380,7 +380,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// Chooses the length of the first step.
-    fn first_step(&mut self) -> f64 {
+    pub(super) fn first_step(&mut self) -> f64 {
         let Self {
             method,
             tolerance,

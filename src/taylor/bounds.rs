@@ -1,6 +1,6 @@
 //! Bounds on the motion within a step by series.
 
-use super::Block;
+use super::{Block, in_registers};
 use crate::scalar::{Kernel, Scalar};
 use crate::{Lanes, Number, Vector};
 
@@ -31,32 +31,87 @@ impl<V: Vector> MotionBounds<V> {
         h: f64,
         state: [&V; 2],
     ) -> bool {
-        let n = state[0].as_slice().len();
         let bounds = self;
-        macro_rules! part {
-            ($start:expr, $end:expr) => {
-                Bound::<V, RATES> {
-                    coefficients,
-                    h,
-                    state,
-                    bounds: &mut *bounds,
-                    range: [$start, $end],
-                }
-            };
-        }
-        let (fours, twos) = (n / 4 * 4, n / 2 * 2);
-        let mut are_finite = true;
-        if fours > 0 {
-            are_finite &= Lanes::<4>::run(part!(0, fours));
-        }
-        if twos > fours {
-            are_finite &= Lanes::<2>::run(part!(fours, twos));
-        }
-        if n > twos {
-            are_finite &= f64::run(part!(twos, n));
-        }
-        are_finite
+        in_registers!(state[0].as_slice().len(), |start, end| Bound::<V, RATES> {
+            coefficients,
+            h,
+            state,
+            bounds: &mut *bounds,
+            range: [start, end],
+        })
     }
+}
+
+impl<V: Vector> MotionBounds<V> {
+    /// Whether they contain the motion within a step of length `h` from a state through which the motion has these coefficients, by the sum of the sizes of
+    /// its terms: sufficient, and half of the work of [`of_step`](Self::of_step). Those of rates count only with `RATES`.
+    pub fn contain<const RATES: bool>(&self, coefficients: &[V], h: f64, state: [&V; 2]) -> bool {
+        in_registers!(
+            state[0].as_slice().len(),
+            |start, end| Contains::<V, RATES> {
+                bounds: self,
+                coefficients,
+                h: h.abs(),
+                state,
+                range: [start, end],
+            }
+        )
+    }
+}
+
+/// [`MotionBounds::contain`] for a range of coordinates whose number is a multiple of that of a block, as a kernel.
+struct Contains<'a, V, const RATES: bool> {
+    bounds: &'a MotionBounds<V>,
+    coefficients: &'a [V],
+    h: f64,
+    state: [&'a V; 2],
+    range: [usize; 2],
+}
+
+impl<T: Block, V: Vector, const RATES: bool> Kernel<T> for Contains<'_, V, RATES> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) -> bool {
+        let Self {
+            bounds,
+            coefficients,
+            state,
+            range: [mut start, end],
+            ..
+        } = self;
+        let h = N::load(T::each(self.h));
+        let mut are_within = true;
+        while start < end {
+            let (mut of_q, mut of_v) = (N::ZERO, N::ZERO);
+            for (k, row) in coefficients.iter().enumerate().skip(1).rev() {
+                let size = read::<T, N, V>(row, start).abs();
+                of_q = of_q.mul_add(h, size);
+                if RATES && k > 1 {
+                    of_v = of_v.mul_add(h, size * N::from_f64(k as f64));
+                }
+            }
+            are_within &= is_within([state[0], &bounds.q[0], &bounds.q[1]], of_q * h, start);
+            if RATES {
+                are_within &= is_within([state[1], &bounds.v[0], &bounds.v[1]], of_v * h, start);
+            }
+            start += T::COUNT;
+        }
+        are_within
+    }
+}
+
+/// Whether numbers from an index on stay between others, if they move by no more than `reach`. Not where anything is not a number.
+#[inline(always)]
+fn is_within<T: Block, N: Scalar<Stored = T>, V: Vector>(
+    [at, low, high]: [&V; 3],
+    reach: N,
+    start: usize,
+) -> bool {
+    let at = read::<T, N, V>(at, start);
+    let down = (at - reach) - read::<T, N, V>(low, start);
+    let up = read::<T, N, V>(high, start) - (at + reach);
+    down.min(up).store().are_not_negative()
 }
 
 /// [`MotionBounds::of_step`] for a range of coordinates whose number is a multiple of that of a block, as a kernel.

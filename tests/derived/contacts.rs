@@ -1,6 +1,8 @@
 //! Machines from the macro whose parts collide or press on compliant walls.
 
-use lagrangian::{Compliance, ContactEventKind, METHODS, Machine, Method, Simulation, System};
+use lagrangian::{
+    Compliance, ContactEventKind, METHODS, Machine, Method, Simulation, Staged, System,
+};
 
 lagrangian::machine! {
     /// A mass between a compliant wall and a wall from which it bounces.
@@ -361,4 +363,132 @@ fn a_disc_rolls_alike_in_all_units_of_length() {
         use ContactEventKind::{Closes, Impact, Sticks};
         assert_eq!(kinds, [Impact, Closes, Sticks], "{unit}");
     }
+}
+
+lagrangian::machine! {
+    /// A pendulum on a shaken pivot between two stops, with its accelerations in stages and their derivatives.
+    machine Clapper in plane {
+        parameters { m: kg = 2, l: m = 0.5, g: m/s^2 = 9.81, e: 1 = 0.7, A: m = 0.02, w: rad/s = 9 }
+        coordinates { phi: rad = 0.4 }
+        bodies { bob { mass: m, at: (A*sin(w*t) + l*sin(phi), -l*cos(phi)) } }
+        gravity (0, -g);
+        contacts {
+            left  { gap: l/4 + l*sin(phi), restitution: e },
+            right { gap: l/2 - l*sin(phi), restitution: e },
+        }
+        derivatives { coordinates, rates, l }
+        stages { time, coordinates }
+    }
+}
+
+lagrangian::machine! {
+    /// The same without these.
+    machine PlainClapper in plane {
+        parameters { m: kg = 2, l: m = 0.5, g: m/s^2 = 9.81, e: 1 = 0.7, A: m = 0.02, w: rad/s = 9 }
+        coordinates { phi: rad = 0.4 }
+        bodies { bob { mass: m, at: (A*sin(w*t) + l*sin(phi), -l*cos(phi)) } }
+        gravity (0, -g);
+        contacts {
+            left  { gap: l/4 + l*sin(phi), restitution: e },
+            right { gap: l/2 - l*sin(phi), restitution: e },
+        }
+    }
+}
+
+/// `φ̈ = −g/l sin φ + A w²/l sin wt cos φ` with both contacts open: at once, in stages, and differentiated. Stages and derivatives leave a
+/// run and its impacts as they are.
+#[test]
+fn stages_and_derivatives_are_those_of_open_contacts() {
+    let clapper = Clapper::default();
+    let system = clapper.prepare();
+    let Clapper { l, g, w, .. } = clapper;
+    let (t, phi, rate) = (0.3_f64, 0.2_f64, -1.1);
+    let shake = clapper.A * w * w / l * (w * t).sin();
+    let exact = -g / l * phi.sin() + shake * phi.cos();
+    let close = |found: f64, exact: f64| {
+        let size = g / l + shake.abs();
+        assert!(
+            (found - exact).abs() <= 64.0 * f64::EPSILON * size,
+            "{found}, {exact}"
+        );
+    };
+    let u = system.default_inputs();
+    let mut a = [0.0];
+    assert_eq!(system.accelerations(t, &[phi], &[rate], &u, &mut a), Ok(()));
+    close(a[0], exact);
+    let at = system
+        .at_position(&system.at_time(t), &[phi])
+        .expect("it has inertia");
+    assert_eq!(system.accelerations_at(&at, &[rate], &u, &mut a), Ok(()));
+    close(a[0], exact);
+    let found = clapper::derivatives(&system, t, &[phi], &[rate]).expect("it has inertia");
+    close(found.accelerations[0], exact);
+    close(
+        found.by_coordinates[0][0],
+        -g / l * phi.cos() - shake * phi.sin(),
+    );
+    close(found.by_rates[0][0], 0.0);
+    close(found.by_parameters[0][0] * l, -exact);
+
+    let run = |tolerance: f64| {
+        Simulation::new(&clapper)
+            .tolerance(tolerance)
+            .energy_balance(true)
+            .until(5.0)
+            .run(clapper.start())
+            .expect("it runs")
+    };
+    let plain = PlainClapper::default();
+    let other = Simulation::new(&plain)
+        .tolerance(1e-11)
+        .until(5.0)
+        .run(plain.start())
+        .expect("it runs");
+    let run = run(1e-11);
+    let (events, others) = (run.contact_events(), other.contact_events());
+    assert!(events.len() > 3, "{events:?}");
+    assert_eq!(events.len(), others.len());
+    for (one, other) in events.iter().zip(others) {
+        // Each impact may multiply errors of 1e-11 by some tens.
+        assert_eq!((one.kind, &one.contact), (other.kind, &other.contact));
+        assert!((one.state.t - other.state.t).abs() < 1e-7);
+    }
+    let balance = run.energy_balance().expect("it was kept");
+    assert!(balance.residual().abs() < 1e-9, "{balance:?}");
+}
+
+lagrangian::machine! {
+    /// A pendulum of small angle that hits a wall.
+    machine SmallClapper in plane {
+        parameters { m: kg = 2, l: m = 0.5, g: m/s^2 = 9.81, e: 1 = 0.5 }
+        coordinates { phi: rad = 0.2 }
+        bodies { bob { mass: m, at: (l*sin(phi), -l*cos(phi)) } }
+        gravity (0, -g);
+        contacts { wall { gap: l*sin(phi), restitution: e } }
+        approximations { phi: small }
+    }
+}
+
+/// `φ̈ = −g/l φ`, which hits the wall at φ = 0 after a quarter of a period and then every half period, each time with `e` of its rate.
+#[test]
+fn an_approximated_machine_bounces() {
+    let clapper = SmallClapper::default();
+    let omega = (clapper.g / clapper.l).sqrt();
+    let half = std::f64::consts::PI / omega;
+    let run = Simulation::new(&clapper)
+        .tolerance(1e-11)
+        .energy_balance(true)
+        .until(2.0)
+        .run(clapper.start())
+        .expect("it runs");
+    let events = run.contact_events();
+    assert_eq!(events.len(), 3);
+    for (k, event) in events.iter().enumerate() {
+        let t = (0.5 + k as f64) * half;
+        assert!((event.state.t - t).abs() < 1e-9, "{event:?}");
+        let rate = 0.2 * omega * 0.5_f64.powi(k as i32 + 1);
+        assert!((event.state.v.phi - rate).abs() < 1e-9, "{event:?}");
+    }
+    let balance = run.energy_balance().expect("it was kept");
+    assert!(balance.residual().abs() < 1e-9, "{balance:?}");
 }

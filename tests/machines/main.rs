@@ -4,6 +4,7 @@
 mod collisions;
 mod crushers;
 mod emitted_series;
+mod flights;
 mod formulations;
 mod friction;
 mod known_runs;

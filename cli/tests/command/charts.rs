@@ -838,3 +838,62 @@ fn a_fit_passes_the_centre() {
     }
     assert_eq!(fitted["derivatives"], "integrated");
 }
+
+/// Modes and linear models about the centre, where polar coordinates have none, are in the Cartesian coordinates: `x = cos 2t`, `y = sin 3t`.
+#[test]
+fn modes_about_the_centre_are_in_cartesian_coordinates() {
+    let spec = particle();
+    let note = "this is in the Cartesian coordinates that `charts` names";
+    let output = lagrangian(&["modes", spec.path(), "--json"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.starts_with("note: ") && said.contains(note), "{said}");
+    let found = json(&["modes", spec.path(), "--json"]);
+    for (k, (name, omega)) in [("x", 2.0), ("y", 3.0)].into_iter().enumerate() {
+        let mode = &found["modes"][k];
+        close(number(&mode["im"]), omega, 1e-12, name);
+        close(number(&mode["shape"][name][0]), 1.0, 1e-12, name);
+    }
+    for at in [&["--here", "--start", "s=0", "--rate", "phi=0"][..], &[]] {
+        let call = [
+            &["linearize", spec.path(), "--json", "--outputs", "height"][..],
+            at,
+        ]
+        .concat();
+        let found = json(&call);
+        let a = &found["A"];
+        for (i, j, exact) in [(2, 0, -4.0), (3, 1, -9.0), (0, 2, 1.0), (2, 1, 0.0)] {
+            close(number(&a[i][j]), exact, 1e-12, "A");
+        }
+        close(number(&found["C"][0][1]), 1.0, 1e-12, "C");
+    }
+    // Away from the centre the model is that in the coordinates of the spec, and a failure there is the error.
+    let found = json(&["linearize", spec.path(), "--json", "--here"]);
+    assert_eq!(found["states"][0]["name"], "s");
+    let output = lagrangian(&["modes", spec.path(), "--steady", "phi=1"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && !said.contains(note), "{said}");
+}
+
+/// An orbit through the centre, `x = cos 2t`: its multipliers are 1, 1 and those of `y = sin 3t` after the time π, −1 and −1.
+#[test]
+fn an_orbit_passes_the_centre() {
+    let spec = particle();
+    let found = json(&[
+        "orbit",
+        spec.path(),
+        "--near",
+        "3.14",
+        "--rate",
+        "phi=0",
+        "--json",
+    ]);
+    close(number(&found["period"]), PI, 1e-8, "period");
+    // There is one for each amplitude, and the search ends near the start.
+    close(number(&found["at"]["q"]["x"]), 1.0, 1e-3, "x");
+    let multipliers = found["multipliers"].as_array().expect("multipliers");
+    let mut real: Vec<f64> = multipliers.iter().map(|of| number(&of["re"])).collect();
+    real.sort_by(f64::total_cmp);
+    for (found, exact) in real.into_iter().zip([-1.0, -1.0, 1.0, 1.0]) {
+        close(found, exact, 1e-6, "multiplier");
+    }
+}

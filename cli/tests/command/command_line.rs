@@ -1009,3 +1009,93 @@ fn an_assumption_that_does_not_hold_is_underlined() {
         assert_eq!(json(&output)["place"], place.as_str(), "{call:?}");
     }
 }
+
+/// The error of a search that a run ends because of an assumption underlines that as well.
+#[test]
+fn searches_underline_an_assumption_that_ends_their_runs() {
+    let fall = "machine Fall in plane {
+    parameters { g: m/s^2 = 9.81 }
+    coordinates { x: m = 0.5 }
+    bodies { ball { mass: 1, at: (x, 0) } }
+    gravity (-g, 0);
+    assume { x > 0 }
+}";
+    let fall = Scratch::new("fall.machine", fall);
+    let data = Scratch::new("fall.csv", "t [s],x [m]\n0,0.5\n0.5,0.1\n1,0.05\n");
+    for call in [
+        &["orbit", fall.path(), "--near", "1"][..],
+        &[
+            "sensitivities",
+            fall.path(),
+            "--until",
+            "1",
+            "--by",
+            "g",
+            "--of",
+            "x",
+        ],
+        &["fit", fall.path(), "--data", data.path(), "--fit", "g"],
+    ] {
+        let output = lagrangian(call);
+        assert_eq!(status(&output), 1, "{call:?}");
+        let said = err(&output);
+        let place = format!("{}:6:14", fall.path());
+        let words = "the machine assumes `x > 0`, which does not hold at t = ";
+        assert!(
+            said.contains(words) && said.contains(&place),
+            "{call:?}: {said}"
+        );
+        assert!(said.contains("^^^^^"), "{call:?}: {said}");
+        let output = lagrangian(&[call, &["--json"]].concat());
+        assert_eq!(json(&output)["place"], place.as_str(), "{call:?}");
+    }
+    let rows = Scratch::new("rows.csv", "");
+    let vary = ["--vary", "g=5,9.81", "--fresh", "--out", rows.path()];
+    lagrangian(&[&["sweep", fall.path(), "--until", "1"][..], &vary].concat());
+    let rows = std::fs::read_to_string(rows.path()).expect("rows");
+    let place = format!("({}:6:14)", fall.path());
+    assert_eq!(rows.matches(&place).count(), 2, "{rows}");
+}
+
+/// A value in a wrong unit is shown with the declaration that it does not fit.
+#[test]
+fn a_value_in_a_wrong_unit_shows_the_declaration() {
+    let spec = "machine Fall in plane {
+    parameters { g: m/s^2 = 9.81 }
+    coordinates { x: m = 0.5 }
+    inputs { F: N }
+    bodies { ball { mass: 1, at: (x, 0) } }
+    gravity (-g, 0);
+    forces { push { on: x, value: F } }
+}";
+    let spec = Scratch::new("fall.machine", spec);
+    for (option, value, words, place) in [
+        ("--set", "g=3*kg", "expected m/s^2, found kg", "2:18"),
+        ("--set", "F=3*kg", "expected N, found kg", "4:14"),
+        ("--start", "x=3*kg", "expected m, found kg", "3:19"),
+        ("--rate", "x=3*kg", "expected m/s, found kg", "3:19"),
+    ] {
+        for command in [
+            &["simulate", "--until", "1"][..],
+            &["evaluate"],
+            &["modes"],
+            &["linearize", "--here"],
+            &["peaks", "--until", "1"],
+            &["orbit", "--near", "1"],
+            &["sensitivities", "--until", "1", "--by", "g", "--of", "x"],
+        ] {
+            let call = [command, &[spec.path(), option, value]].concat();
+            let output = lagrangian(&call);
+            assert_eq!(status(&output), 2, "{call:?}");
+            let said = err(&output);
+            assert!(said.contains(words), "{call:?}: {said}");
+            let place = format!("{}:{place}", spec.path());
+            assert!(
+                said.contains(&place) && said.contains("declared here"),
+                "{call:?}: {said}"
+            );
+            let output = lagrangian(&[&call[..], &["--json"]].concat());
+            assert_eq!(json(&output)["place"], place.as_str(), "{call:?}");
+        }
+    }
+}

@@ -406,7 +406,7 @@ fn what_has_no_linearization_is_refused_with_the_reason() {
         ),
         (
             "machines/contacts/bouncing_ball.machine",
-            "`contacts` has no linear model",
+            "rigid contacts, as `floor`, count as open",
         ),
         ("machines/kapitza_pendulum.machine", "changes with time"),
     ] {

@@ -21,7 +21,7 @@ use lagrangian_units::{rate_unit, state_of};
 use nalgebra::DMatrix;
 
 use crate::motion::{self, SteadyMotion};
-use crate::reduced::{Choice, Fault, Number, Reduced, ReducedState, solve};
+use crate::reduced::{Choice, ContactFault, Fault, Number, Reduced, ReducedState, solve};
 use crate::steady::{Options, states};
 use smooth::smooth;
 
@@ -106,6 +106,8 @@ pub enum NoModel {
     Kink(Option<String>),
     /// This output has a corner or a jump at the state.
     OutputKink(String),
+    /// This contact is closed, or about to close or open, and has no linearization.
+    Contact(String, ContactFault),
     /// The effect of this input changes along the steady motion; names the input, and what moves.
     InputTurns(String, Moving),
     /// The gains of this output change along the steady motion; names the output, and what moves.
@@ -168,6 +170,7 @@ impl NoModel {
             NoModel::OutputKink(name) => format!(
                 "the output `{name}` has a corner or a jump there (`abs`, `sign`, `min` or `max`), and so has no linearization; leave it out"
             ),
+            NoModel::Contact(name, fault) => fault.in_words(name, start),
             NoModel::InputTurns(name, moving) => turns("input", name, moving),
             NoModel::OutputTurns(name, moving) => turns("output", name, moving),
         }
@@ -247,13 +250,15 @@ pub fn along(
     let inputs = system.default_inputs().values;
     let found = &motion.found;
     let q = found.place.q();
-    let mut reduced = Reduced::new(machine, &system, &inputs, &states(&q, &motion.v));
+    let near = states(&q, &motion.v);
+    let mut reduced = Reduced::new(machine, &system, &inputs, &near).with_contacts(&near);
     let at = At {
         choice: &found.choice,
         place: &found.place,
         records: &motion.records,
     };
     let named_request = NamedRequest::new(machine, &system, request, at.choice)?;
+    check_contacts(&mut reduced, &at, &motion.v)?;
     smooth(&mut reduced, &named_request, &at)?;
     let (mut here, bounds) = without_roundoff(&mut reduced, &named_request, &at)?;
     goes_on(
@@ -277,12 +282,8 @@ pub fn check_smooth(machine: &InterpretedMachine, motion: &SteadyMotion) -> Resu
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
     let found = &motion.found;
-    let mut reduced = Reduced::new(
-        machine,
-        &system,
-        &inputs,
-        &states(&found.place.q(), &motion.v),
-    );
+    let near = states(&found.place.q(), &motion.v);
+    let mut reduced = Reduced::new(machine, &system, &inputs, &near).with_contacts(&near);
     let at = At {
         choice: &found.choice,
         place: &found.place,
@@ -293,6 +294,7 @@ pub fn check_smooth(machine: &InterpretedMachine, motion: &SteadyMotion) -> Resu
         outputs: Vec::new(),
     };
     let named_request = NamedRequest::new(machine, &system, &nothing, at.choice)?;
+    check_contacts(&mut reduced, &at, &motion.v)?;
     smooth(&mut reduced, &named_request, &at)
 }
 
@@ -307,7 +309,8 @@ pub fn about(
 ) -> Result<Model, NoModel> {
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
-    let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, v));
+    let near = states(q, v);
+    let mut reduced = Reduced::new(machine, &system, &inputs, &near).with_contacts(&near);
     reduced.set_time(t);
     let mut wide: Vec<DoubleDouble> = q.iter().map(|x| (*x).into()).collect();
     reduced.project(&mut wide, &|_| true)?;
@@ -326,12 +329,45 @@ pub fn about(
         records: &records,
     };
     let named_request = NamedRequest::new(machine, &system, request, &choice)?;
+    check_contacts(&mut reduced, &at, &[])?;
     smooth(&mut reduced, &named_request, &at)?;
     let (here, bounds) = without_roundoff(&mut reduced, &named_request, &at)?;
     let (wide, s) = (constants(&place.q), constants(&place.s));
     let rates = reduced.evaluate(&choice, &wide, &s)?.rates;
     let v = rates.iter().map(|v| v.value.hi()).collect();
     Ok(named_request.model(&at, here, bounds, (near, v, inputs)))
+}
+
+/// Checks that contacts are open by a margin, or closed by a margin where they yield, and that they stay so if the machine moves steadily
+/// at the rates `steady`.
+fn check_contacts(reduced: &mut Reduced<'_>, at: &At<'_>, steady: &[f64]) -> Result<(), NoModel> {
+    let (q, s) = (constants(&at.place.q), constants(&at.place.s));
+    let rates = reduced.evaluate(at.choice, &q, &s)?.rates;
+    if let Some((contact, fault)) = reduced.barred_by(&q, &rates) {
+        return Err(NoModel::Contact(reduced.contact_name(contact), fault));
+    }
+    let moving: Vec<usize> = (at.choice.places().into_iter())
+        .filter(|j| steady.get(*j).is_some_and(|v| *v != 0.0))
+        .collect();
+    let mut places = Vec::new();
+    for &j in &moving {
+        places.extend(motion::elsewhere(reduced, at.choice, at.place, j));
+    }
+    if !moving.is_empty() {
+        places.push(at.place.clone());
+    }
+    for there in places {
+        let (q, s) = (constants(&there.q), constants(&there.s));
+        // Positions at which the equations cannot be evaluated are skipped.
+        let Ok(there) = reduced.evaluate(at.choice, &q, &s) else {
+            continue;
+        };
+        if let Some(contact) = reduced.moving_gap(&q, &there.rates) {
+            let name = reduced.contact_name(contact);
+            return Err(NoModel::Contact(name, ContactFault::Moves));
+        }
+    }
+    Ok(())
 }
 
 fn constants(values: &[DoubleDouble]) -> Vec<Number> {

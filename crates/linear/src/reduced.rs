@@ -17,6 +17,7 @@
 //! repeats the evaluation with perturbed roundings: a number within that bound may be 0.
 
 mod choice;
+mod contacts;
 mod projection;
 
 use lagrangian::System;
@@ -28,6 +29,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::precise;
 pub use choice::Choice;
+pub use contacts::ContactFault;
 pub use projection::largest_relative_change;
 
 /// A number of 32 digits with a derivative.
@@ -171,6 +173,8 @@ pub struct Reduced<'a> {
     fours: Vec<[usize; 4]>,
     /// Coordinates on which nothing depends.
     idle: Vec<bool>,
+    /// The unilateral contacts whose forces are part of f; none unless [`with_contacts`](Self::with_contacts) adds them.
+    contacts: Vec<contacts::Contact>,
 }
 
 impl<'a> Reduced<'a> {
@@ -191,6 +195,7 @@ impl<'a> Reduced<'a> {
             holonomic: system.constraints().map(|c| c.holonomic).collect(),
             fours: machine.program().quaternions.clone(),
             idle: Vec::new(),
+            contacts: Vec::new(),
         };
         let of_lengths = reduced.fours.iter().map(|_| true);
         reduced.holonomic.extend(of_lengths);
@@ -284,6 +289,9 @@ impl<'a> Reduced<'a> {
         let (own, of_lengths) = results.split_at_mut(count - of_each * self.fours.len());
         // None of these functions has pivots, so the call cannot fail; a function that the program lacks leaves zeros.
         let _ = self.interpreter.call(role, arguments, own);
+        if role == Role::Forces {
+            self.add_contact_forces((q, v), t, own);
+        }
         let dot = |four: &[usize; 4], a: &[Number], b: &[Number]| {
             let terms = four.iter().map(|&i| a[i] * b[i]);
             terms.fold(Number::ZERO, |sum, term| sum + term)
@@ -328,7 +336,8 @@ impl<'a> Reduced<'a> {
         states.iter().all(|(q, v)| {
             let (q, v) = (constants(q), constants(v));
             let mut at = |t| {
-                let all = self.ingredients(&q, &v, t).concat();
+                let mut all = self.ingredients(&q, &v, t).concat();
+                all.extend(self.gaps_and_rates(&q, &v, t));
                 let values: Vec<DoubleDouble> = all.iter().map(|x| x.value).collect();
                 // A value that is not finite cannot be compared.
                 values.iter().all(|x| x.is_finite()).then_some(values)

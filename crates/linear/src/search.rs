@@ -48,6 +48,9 @@ const BALANCED: f64 = 1e3;
 /// m, or relative to the coordinate.
 const FALL: f64 = 0.25;
 
+/// How much further than to a contact the machine falls, so that the contact presses.
+const LANDING: f64 = 1.0 + 1e-6;
+
 /// The most falls of this kind in a search.
 const MOST_FALLS: usize = 8;
 
@@ -142,7 +145,7 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Sta
         }
         if steps - least_at >= STALLED && stalls < MOST_STALLS {
             for _ in 0..FALLS_AT_ONCE {
-                match here.displaced_by_forces(reduced, &here.scaled, &mut rates, wanted) {
+                match here.displaced_by_forces(reduced, &here.scaled, (&mut rates, wanted), None) {
                     Some(there) => here = there,
                     None => break,
                 }
@@ -517,7 +520,12 @@ impl Point {
         wanted: &Wanted,
     ) -> Option<Point> {
         self.largest_irreducible_force()?;
-        let there = self.displaced_by_forces(reduced, &self.remaining(), rates, wanted)?;
+        // A contact that yields may take up the forces: the machine falls onto the first one in its way.
+        if let Some(there) = self.landed(reduced, rates, wanted) {
+            return Some(there);
+        }
+        let remaining = self.remaining();
+        let there = self.displaced_by_forces(reduced, &remaining, (rates, wanted), None)?;
         let is_other = there.choice != self.choice || {
             let (now, then) = (&self.here.forces, &there.here.forces);
             let bounds = &self.bounds.forces + &there.bounds.forces;
@@ -526,20 +534,38 @@ impl Point {
         is_other.then_some(there)
     }
 
-    /// The point to which the forces pull the machine.
+    /// The point where the forces that no step can remove press the machine on a contact that yields and that was open.
+    fn landed(
+        &self,
+        reduced: &mut Reduced<'_>,
+        rates: &mut [f64],
+        wanted: &Wanted,
+    ) -> Option<Point> {
+        let forces = self.remaining();
+        let along = self.pulled(&forces, wanted)?;
+        let displaced = &self.here.along * &along;
+        let after = reduced.closes_after(&self.place, displaced.as_slice())?;
+        self.displaced_by_forces(reduced, &forces, (rates, wanted), Some(after * LANDING))
+    }
+
+    /// The accelerations that forces cause, of the coordinates that are not prescribed.
+    fn pulled(&self, forces: &DVector<f64>, wanted: &Wanted) -> Option<DVector<f64>> {
+        let along = self.lower.transpose().solve_upper_triangular(forces)?;
+        let is_prescribed = |c: usize| wanted.steady[self.choice.independent[c]];
+        Some(DVector::from_fn(along.len(), |c, _| {
+            if is_prescribed(c) { 0.0 } else { along[c] }
+        }))
+    }
+
+    /// The point to which the forces pull the machine: after `times` their accelerations, or after a fall of the usual length.
     fn displaced_by_forces(
         &self,
         reduced: &mut Reduced<'_>,
         forces: &DVector<f64>,
-        rates: &mut [f64],
-        wanted: &Wanted,
+        (rates, wanted): (&mut [f64], &Wanted),
+        times: Option<f64>,
     ) -> Option<Point> {
-        let along = self.lower.transpose().solve_upper_triangular(forces)?;
-        let is_prescribed = |c: usize| wanted.steady[self.choice.independent[c]];
-        let along = DVector::from_fn(
-            along.len(),
-            |c, _| if is_prescribed(c) { 0.0 } else { along[c] },
-        );
+        let along = self.pulled(forces, wanted)?;
         let displaced = &self.here.along * &along;
         let longest = largest_relative_change(&displaced, &self.place.q());
         if !(longest > 0.0 && longest.is_finite()) {
@@ -549,8 +575,8 @@ impl Point {
             along: self.apart.transpose() * along,
             rates: DVector::zeros(self.scaled.len()),
         };
-        self.after_step(reduced, &step, FALL / longest, rates, wanted)
-            .ok()
+        let times = times.unwrap_or(FALL / longest);
+        self.after_step(reduced, &step, times, rates, wanted).ok()
     }
 
     /// The part of the forces that no step can remove.

@@ -36,7 +36,8 @@ pub fn motion(
 ) -> Result<SteadyMotion, NoMotion> {
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
-    let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, &wanted.given()));
+    let near = states(q, &wanted.given());
+    let mut reduced = Reduced::new(machine, &system, &inputs, &near).with_contacts(&near);
     let wanted = &wanted.with_states(&reduced.integrals());
     let result = search::find(&mut reduced, q, wanted);
     let equilibrium = result.map_err(|lost| match start_is_unsteady(&mut reduced, q, wanted) {
@@ -111,6 +112,8 @@ pub fn drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Resul
         Role::ConstraintRates,
         Role::ConstraintBias,
         Role::ConstraintPositions,
+        Role::Gaps,
+        Role::ContactRates,
     ];
     if !roles.iter().any(reads_time) {
         return Ok(());
@@ -121,7 +124,8 @@ pub fn drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Resul
     let stands_still = |machine: &InterpretedMachine| {
         let system = machine.prepare();
         let inputs = system.default_inputs().values;
-        Reduced::new(machine, &system, &inputs, &[]).stands_still(&states)
+        let reduced = Reduced::new(machine, &system, &inputs, &[]);
+        reduced.with_contacts(&[]).stands_still(&states)
     };
     if stands_still(machine) {
         return Ok(());
@@ -231,15 +235,29 @@ fn reason_search_failed(
     } else {
         format!("{start} sets another start of the search")
     };
+    let contacts = || system.unilateral_contacts();
+    let rigid = contacts().find(|contact| contact.compliance.is_none());
+    let rubs = contacts().find(|contact| contact.compliance.is_some() && contact.has_friction);
+    let left_out = match (rigid, rubs) {
+        (Some(contact), _) => format!(
+            "; rigid contacts, as `{}`, count as open, since there are no modes where one is closed",
+            contact.name
+        ),
+        (None, Some(contact)) => format!(
+            "; friction, as of the contact `{}`, is left out where nothing slips, since it has no linearization there",
+            contact.name
+        ),
+        (None, None) => String::new(),
+    };
     match lost {
         Lost::Fault(fault) => fault.in_words(system, options),
         Lost::Accelerates(index, left) => format!(
-            "there is no {kind} near the start: nothing balances the acceleration {left:.3e} of `{}`; {place}",
+            "there is no {kind} near the start: nothing balances the acceleration {left:.3e} of `{}`; {place}{left_out}",
             name(system, *index)
         ),
         Lost::NoEnd(steps) => {
             let times = if *steps == 1 { "step" } else { "steps" };
-            format!("no {kind} was found in {steps} {times} from the start; {place}")
+            format!("no {kind} was found in {steps} {times} from the start; {place}{left_out}")
         }
     }
 }

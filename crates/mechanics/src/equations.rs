@@ -35,6 +35,7 @@ mod power;
 mod projected;
 mod reduction;
 pub(crate) mod refusal;
+pub(crate) mod shorter;
 mod sliding;
 mod symmetric;
 mod unilateral;

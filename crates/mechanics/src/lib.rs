@@ -15,6 +15,7 @@ pub mod formulas;
 pub mod lower;
 pub mod proof;
 pub mod series;
+mod states;
 
 pub use compile::Compiled;
 pub use equations::{
@@ -26,7 +27,7 @@ pub use equations::{
 };
 #[cfg(doc)]
 use lagrangian_program::Program;
-pub use lower::states::around_start;
 pub use lower::{Quantity, lower, lower_by, of_quantities, quantities};
 pub use proof::symbolic::{Disagreement, POINTS, prove, prove_quantities};
 pub use proof::{Proved, STATES, Uncharted, Unproved, Witness, prove_charts};
+pub use states::around_start;

@@ -11,13 +11,13 @@ mod friction;
 mod projection;
 mod slots;
 mod stages;
-pub(crate) mod states;
 mod turned;
 
 use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, reachable};
 use rustc_hash::FxHashMap;
 
 use crate::equations::UnilateralEquation;
+use crate::states::sources;
 use crate::{ConstraintEquation, Equations, Reduction, SlidingEquation, Unprojected};
 use accelerations::{is_mostly_formulas, ways_to_accelerations};
 use choosing::{Draft, PlannedFunction};
@@ -598,29 +598,6 @@ fn prepare(
     };
     let prepare = planned.only(graph).function;
     (prepare, formulas, functions)
-}
-
-/// The source of each symbol of a model.
-pub(super) fn sources(model: &Model<'_>) -> FxHashMap<Symbol, Source> {
-    let mut sources = FxHashMap::default();
-    let mut add = |symbol: Expr<'_>, source: Source| {
-        if let Some(symbol) = symbol.as_symbol() {
-            sources.insert(symbol, source);
-        }
-    };
-    add(model.time, Source::Time);
-    for (parameter, index) in model.parameters.iter().zip(0..) {
-        add(parameter.symbol, Source::Parameter(index));
-    }
-    for (coordinate, index) in model.coordinates.iter().zip(0..) {
-        add(coordinate.q, Source::Coordinate(index));
-        add(coordinate.v, Source::Velocity(index));
-        add(coordinate.a, Source::Acceleration(index));
-    }
-    for (input, index) in model.inputs.iter().zip(0..) {
-        add(input.symbol, Source::Input(index));
-    }
-    sources
 }
 
 /// The values of the steps that are in the graph: those that the accelerations need.

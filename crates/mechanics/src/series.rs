@@ -37,14 +37,11 @@ const MOST_STATES: u64 = 96;
 pub struct ProvedSeries(Arc<Series>);
 
 impl ProvedSeries {
-    /// Derives the series of a machine's motion, and proves it.
+    /// Derives the series of a machine's motion, and proves it. With unilateral contacts it is the motion while all of them are open.
     ///
     /// # Errors
     /// Why there is none.
     pub fn derive(model: &Model<'_>) -> Result<ProvedSeries, NoSeries> {
-        if !model.contacts.is_empty() {
-            return Err(NoSeries::Unilateral);
-        }
         let mut forms = lower::series(model)?.into_iter();
         let proved = forms.find_map(|series| ProvedSeries::new(series, model).ok());
         proved.ok_or(NoSeries::Unproved)

@@ -501,6 +501,15 @@ impl Program {
         })
     }
 
+    /// The costs of the functions of [work and losses](Program::has_powers), without those that are 0.
+    pub fn costs_of_powers(&self) -> impl Iterator<Item = Cost> {
+        let functions = [Role::WorkRate, Role::DissipationRate].into_iter();
+        let functions = functions.filter_map(|role| self.function(role));
+        functions
+            .filter(|function| !function.is_zero())
+            .map(Function::cost)
+    }
+
     /// The role of the function that solves the equations of motion: the accelerations or, for a
     /// machine with guided contacts, their dependence on the friction forces.
     pub fn solving(&self) -> Role {

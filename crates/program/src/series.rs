@@ -175,10 +175,13 @@ impl Series {
     /// The time of a step with 20 coefficients in processor cycles, by which one of several forms of the equations is chosen.
     ///
     /// A product of series with 20 coefficients takes 210 multiplications. The matrix of the unknowns is made from the gradients of
-    /// rows, and is factorized once and solved with at each order: 5 cycles for each entry of a gradient.
+    /// rows: 5 cycles for each entry of a gradient. It is inverted once, by as many multiplications as the cube of the unknowns.
     pub fn cycles(&self) -> f64 {
         let gradients: usize = self.depends.iter().map(Vec::len).sum();
-        CYCLES_OF_PRODUCT * self.products() + CYCLES_OF_GRADIENT * gradients as f64
+        let unknowns = self.unknowns() as f64;
+        CYCLES_OF_PRODUCT * self.products()
+            + CYCLES_OF_GRADIENT * gradients as f64
+            + CYCLES_OF_MULTIPLICATION * unknowns * unknowns * unknowns
     }
 
     /// Whether the sums for the effect of accelerations on forces begin with the rest of the force: the dependency chain, which bounds short series, is an
@@ -220,18 +223,49 @@ impl Series {
     /// An evaluation comes with the sums of a stage of the method, 8 cycles for each coordinate. With 12 coefficients the cost is two
     /// thirds. Measured costs (`docs/benchmarks.md`, the method that a run chooses) are within a factor of 2.
     pub fn cost(&self, accelerations: Cost) -> [f64; 2] {
-        let evaluation =
-            accelerations.single_call() as f64 / 10.0 + CYCLES_OF_STAGE * self.coordinates as f64;
-        let fine = self.cycles() / evaluation;
+        let fine = self.cycles() / self.evaluation(accelerations);
         [2.0 / 3.0 * fine, fine]
+    }
+
+    /// What the powers of an energy balance add, in the same unit: to an evaluation, in which they are computed once, and to a step by this series with 12 and with
+    /// 20 coefficients, within which they are integrated by a quadrature; `powers` are the costs of their functions.
+    ///
+    /// At each of its nodes the quadrature also needs the state and the accelerations there.
+    pub fn cost_of_powers(
+        &self,
+        accelerations: Cost,
+        powers: impl IntoIterator<Item = Cost>,
+    ) -> [f64; 3] {
+        let powers = powers.into_iter().map(|of| of.single_call() as f64 / 10.0);
+        let powers: f64 = powers.sum();
+        let evaluation = self.evaluation(accelerations);
+        let of_step = |coefficients: f64| {
+            let state = CYCLES_OF_TERM * coefficients * self.coordinates as f64;
+            NODES * (powers + state) / evaluation
+        };
+        [powers / evaluation, of_step(12.0), of_step(20.0)]
+    }
+
+    /// The time of an evaluation in a step of `dop853`, in processor cycles.
+    fn evaluation(&self, accelerations: Cost) -> f64 {
+        accelerations.single_call() as f64 / 10.0 + CYCLES_OF_STAGE * self.coordinates as f64
     }
 }
 
-/// The time of a product of series with 20 coefficients, in processor cycles: 0.4 for a multiplication.
-const CYCLES_OF_PRODUCT: f64 = 84.0;
+/// The time of a multiplication, in processor cycles.
+const CYCLES_OF_MULTIPLICATION: f64 = 0.4;
+
+/// The time of a product of series with 20 coefficients.
+const CYCLES_OF_PRODUCT: f64 = 210.0 * CYCLES_OF_MULTIPLICATION;
 
 /// The time that an entry of a gradient takes in a step, fitted to measured steps.
 const CYCLES_OF_GRADIENT: f64 = 5.0;
+
+/// The number of evaluations of powers in a step by series: the nodes of the quadrature but the first, and the end.
+const NODES: f64 = 15.0;
+
+/// The time that a term of a coordinate takes for the sums of its value, its rate and its acceleration: six instructions for four coordinates.
+const CYCLES_OF_TERM: f64 = 0.75;
 
 /// The time of the sums of a stage for each coordinate.
 const CYCLES_OF_STAGE: f64 = 8.0;
@@ -247,8 +281,6 @@ pub enum NoSeries {
     Constraints,
     /// Contacts with friction.
     Friction,
-    /// Unilateral contacts.
-    Unilateral,
     /// Accelerations that do not occur linearly in the forces.
     NotLinear,
     /// More rows than allowed.
@@ -270,7 +302,6 @@ impl fmt::Display for NoSeries {
             NoSeries::Approximations => f.write_str("it has coordinates that are approximated"),
             NoSeries::Constraints => f.write_str("it has constraints of velocities"),
             NoSeries::Friction => f.write_str("it has contacts with friction"),
-            NoSeries::Unilateral => f.write_str("it has contacts that close and open"),
             NoSeries::NotLinear => f.write_str("its forces depend on accelerations"),
             NoSeries::TooLarge => write!(f, "its series has more than {MOST_ROWS} rows"),
             NoSeries::Unproved => {

@@ -52,7 +52,7 @@ impl ChartedPoints {
     }
 
     /// The indices of the coordinates of each.
-    fn places(&self) -> Vec<[usize; 2]> {
+    pub fn places(&self) -> Vec<[usize; 2]> {
         self.0.iter().map(|point| point.places).collect()
     }
 
@@ -145,6 +145,17 @@ impl Charts {
         self.turns()
             .to_polar(state.t, &mut shown.q.values, &mut shown.v.values);
         shown
+    }
+
+    /// The state of the run with these coordinates and rates of the spec.
+    pub fn in_run(&self, t: f64, q: &[f64], v: &[f64]) -> State<Named> {
+        let mut state = self.start.clone();
+        state.t = t;
+        state.q.values.copy_from_slice(q);
+        state.v.values.copy_from_slice(v);
+        let places = self.points.places();
+        to_cartesian(&places, &mut state.q.values, &mut state.v.values);
+        state
     }
 
     /// A recording of these states with the polar coordinates in the places of the Cartesian ones.

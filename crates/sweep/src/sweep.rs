@@ -21,7 +21,7 @@ use lagrangian_mechanics::series::{ProvedSeries, SeriesText};
 use lagrangian_spec::diagnostic::{Report, Severity, most_similar};
 use lagrangian_spec::model::{Coordinate, Model, stage};
 use lagrangian_spec::resolve::Formula as OutputFormula;
-use lagrangian_spec::source::Sources;
+use lagrangian_spec::source::{Sources, Span};
 use lagrangian_spec::unit::{integral_name, rate_unit, state_of};
 use lagrangian_symbolic::{Dag, Rational};
 use outcome::{Outcome, Recorder, sample};
@@ -55,6 +55,8 @@ pub struct Sweep {
     machine: InterpretedMachine,
     /// The machine in the Cartesian coordinates that `charts` of the spec names, if it names any and they can express the plan.
     cartesian: Option<Cartesian>,
+    /// For each fact that the spec assumes its text and its place in the spec: `swing.machine:7:14`.
+    assumptions: Vec<(String, String)>,
     /// The method of all runs; `None` if each of them chooses its methods.
     method: Option<&'static Method>,
     /// Why another method is used than the plan asks for, as a sentence.
@@ -194,6 +196,18 @@ pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
     Err(format!("no {kind} named `{wanted}`; {help}"))
 }
 
+/// For each fact that the spec assumes its text and its place in the spec.
+fn places_of_assumptions(model: &Model<'_>, sources: &Sources) -> Vec<(String, String)> {
+    let place = |span: Span| {
+        let (line, column) = sources.line_column(span);
+        format!("{}:{line}:{column}", sources.name(span.source))
+    };
+    let stated = model.assumptions.iter();
+    stated
+        .map(|stated| (stated.text.clone(), place(stated.span)))
+        .collect()
+}
+
 /// The formulas of a plan as outputs of the model, which come after its own.
 ///
 /// # Errors
@@ -313,9 +327,13 @@ impl Sweep {
                 unit: unit.as_deref(),
             })
             .collect();
+        let of_plain = sources;
         let (mut sources, mut report) = (Sources::new(), Report::new());
         let with = match output_formulas.as_slice() {
-            [] => Some(plain),
+            [] => {
+                sources = of_plain;
+                Some(plain)
+            }
             asked => model(&plan, &constants, &dag, asked, &mut sources, &mut report),
         };
         let mut with = with;
@@ -324,6 +342,7 @@ impl Sweep {
         let Some(compiled) = compiled else {
             return Err(PlanError::Spec(Box::new((report, sources))));
         };
+        let assumptions = places_of_assumptions(&compiled.model, &sources);
         let formulas = formulas(&compiled.model, &output_formulas)?;
         let (mut machine, mut method, mut warning) = machine(&plan, &compiled, engine)?;
         set_all(&mut machine, &plan.set).map_err(PlanError::Plan)?;
@@ -360,6 +379,7 @@ impl Sweep {
             group: group_size(&compiled),
             machine,
             cartesian,
+            assumptions,
             method: (plan.method != AUTO).then_some(method),
             warning,
             constants,
@@ -409,6 +429,19 @@ impl Sweep {
     /// Makes the runs of a chunk, the unit of work, which depends only on the plan and the chunk's index. `None` once `stop` is set.
     pub fn run_chunk(&self, chunk: u64, stop: &AtomicBool) -> Option<Chunk> {
         self.run(self.plan.runs_of(chunk), stop, &|_| ())
+    }
+
+    /// The message of an error of a run, followed by the place in the spec if that states its reason.
+    fn message_of(&self, error: &lagrangian::Error) -> String {
+        let message = verdict::message_of(error);
+        let lagrangian::Error::AssumptionEnded { assumption, .. } = error else {
+            return message;
+        };
+        let mut stated = self.assumptions.iter();
+        match stated.find(|(text, _)| text == assumption) {
+            Some((_, place)) => format!("{message} ({place})"),
+            None => message,
+        }
     }
 
     /// Makes these runs; `done` is called after each with whether it failed.
@@ -509,7 +542,7 @@ impl Sweep {
                     self.outcome(*run, (&solution, error), (begun.recorder, charts), failed)
                 }
                 Err(error) => {
-                    let error = Some(verdict::message_of(&error));
+                    let error = Some(self.message_of(&error));
                     Some(Outcome { error, ..failed })
                 }
             }
@@ -701,7 +734,7 @@ impl Sweep {
         if *solution.ending() == Ending::Stopped {
             return None;
         }
-        let error = error.as_ref().map(verdict::message_of);
+        let error = error.as_ref().map(|error| self.message_of(error));
         outcome.error = error.or_else(|| verdict::energy_error(solution));
         outcome.status = match (&outcome.error, solution.ending()) {
             (Some(_), _) => "failed".to_owned(),

@@ -219,7 +219,11 @@ impl ContactsOfStep<'_> {
         let mut b = core::mem::take(&mut memory.b);
         b.clear();
         b.extend((directions.zip(self.free).zip(&self.meeting.before)).map(
-            |((d, free), before)| free + share * self.here.restitution(d / 2)[d % 2] * before,
+            |((d, free), before)| {
+                // What opens has not met: with restitution a contact that comes back to its gap would go beyond it by as much, step after step.
+                let before = if d % 2 == 0 { before.min(0.0) } else { *before };
+                free + share * self.here.restitution(d / 2)[d % 2] * before
+            },
         ));
         for (normal, way_back) in b.iter_mut().step_by(2).zip(self.ways_back) {
             *normal += way_back;

@@ -10,29 +10,27 @@
 //! unique rates even if contacts depend on each other. The numbers s are then those of these rates, until they change no more (V. Acary, F. Cadoux, C. Lemaréchal,
 //! J. Malick, Z. Angew. Math. Mech. 91 (2011) 155–175). Newton's method on the whole problem begins at each of the solutions and ends most searches early.
 //!
-//! A convex problem is solved by a primal-dual interior-point method with the scaling of Yu. E. Nesterov and M. J. Todd (SIAM J. Optim. 8 (1998) 324–364) and the
-//! steps of S. Mehrotra (SIAM J. Optim. 2 (1992) 575–601); the formulas for cones of revolution are those of L. Vandenberghe (*The CVXOPT linear and quadratic cone
-//! program solvers*, 2010). Its matrix is that of the contacts and a positive definite one, so that it is regular, however the contacts depend on each other.
+//! A convex problem is solved by a primal-dual interior-point method, whose scaling and steps are those of [`revolution`](super::super::revolution). Its matrix is that of the
+//! contacts and a positive definite one, so that it is regular, however the contacts depend on each other.
 
 use std::vec::Vec;
 
+use super::super::revolution::{SHARE_OF_WAY, Scaling, Triple, corrected_right_side, way_to_edge};
 use super::{Part, Problem};
+use crate::implicit::lu::Lu;
 
 /// The most steps of the interior-point method; some 12 are usual.
 const STEPS: usize = 40;
 
-/// A step goes this share of the way to the edge of the cones.
-const SHARE_OF_WAY: f64 = 0.99;
-
 /// The mean product of forces and rates with which a convex problem is solved, relative to the product of those of the start. Where a contact neither presses nor
 /// opens, or sticks with all of its friction, forces and rates are no better known than the square root of it.
-const SOLVED: f64 = 1e-17;
+const SOLVED: f64 = 1e-22;
 
 /// The error of the rates with which it is solved, relative to the greatest one.
 const EXACT: f64 = 1e-13;
 
-/// Slips below this, relative to the greatest rate, are not known.
-const LEAST_SLIP: f64 = 1e-7;
+/// Slips below this, relative to the greatest rate, are rounding.
+const LEAST_SLIP: f64 = 1e-14;
 
 /// The cosine of the angle between two changes of slips that are alike, and how many times as far as the last one the next one may be taken.
 const ALIKE: f64 = 0.9;
@@ -44,9 +42,6 @@ struct Cone {
     places: [usize; 3],
     dimension: usize,
 }
-
-/// Numbers of a cone, of which those beyond its dimension are 0.
-type Triple = [f64; 3];
 
 /// Memory for the convex problems.
 #[derive(Clone, Debug, Default)]
@@ -67,19 +62,21 @@ pub(super) struct Interior {
     w: Vec<f64>,
     rates: Vec<f64>,
     missing: Vec<f64>,
-    factor: Vec<f64>,
-    exchanges: Vec<usize>,
+    newton: Vec<f64>,
+    lu: Lu<1>,
     change: Vec<f64>,
     change_of_rates: Vec<f64>,
-    scalings: Vec<Scaling>,
+    scaled: Vec<ScaledCone>,
 }
 
-/// The scaling of a cone: `W = β (2 v vᵀ − J)` with `W x = W⁻¹ w = λ`.
+/// A cone as it is scaled.
 #[derive(Clone, Copy, Debug, Default)]
-struct Scaling {
-    beta: f64,
-    v: Triple,
+struct ScaledCone {
+    scaling: Scaling,
+    /// What forces and rates are scaled to.
     lambda: Triple,
+    /// The scaled changes of rates and forces in a step.
+    changes: [Triple; 2],
     /// The direction of the slip where that enlarges the normal rate as it changes.
     along: Triple,
 }
@@ -208,8 +205,8 @@ impl Interior {
             vector.clear();
             vector.resize(n, 0.0);
         }
-        self.scalings.clear();
-        self.scalings.resize(self.cones.len(), Scaling::default());
+        self.scaled.clear();
+        self.scaled.resize(self.cones.len(), ScaledCone::default());
         // Forces that give rates about as large as those that are known.
         let diagonal = (0..n).fold(0.0_f64, |most, i| most.max(self.matrix[i * n + i]));
         if size <= 0.0 || diagonal <= 0.0 {
@@ -236,7 +233,7 @@ impl Interior {
                         along = [0.0, w[1] / slip, w[2] / slip];
                     }
                 }
-                self.scalings[k].along = along;
+                self.scaled[k].along = along;
                 self.rates[cone.places[0]] += self.enlarged[k];
             }
             let mut product = 0.0;
@@ -266,26 +263,13 @@ impl Interior {
 
     /// Finds the scaling of each cone; whether forces and rates are inside.
     fn scale(&mut self) -> bool {
-        for (cone, scaling) in self.cones.iter().zip(&mut self.scalings) {
+        for (cone, own) in self.cones.iter().zip(&mut self.scaled) {
             let (x, w) = (cone.read(&self.x), cone.read(&self.w));
-            let [of_x, of_w] = [x, w].map(determinant);
-            if !(of_x > 0.0 && of_w > 0.0 && x[0] > 0.0 && w[0] > 0.0) {
+            let Some(scaling) = Scaling::new(w, x) else {
                 return false;
-            }
-            let [root_x, root_w] = [of_x.sqrt(), of_w.sqrt()];
-            let [unit_x, unit_w] = [x.map(|x| x / root_x), w.map(|w| w / root_w)];
-            let gamma = (0.5 * (1.0 + super::dot(&unit_x, &unit_w))).sqrt();
-            // The unit vector of `W²`, which maps x to w, and that of `W`.
-            let mut v = [0, 1, 2].map(|i| {
-                let sign = if i == 0 { 1.0 } else { -1.0 };
-                (unit_w[i] + sign * unit_x[i]) / (2.0 * gamma)
-            });
-            let length = (2.0 * (v[0] + 1.0)).sqrt();
-            v[0] += 1.0;
-            v = v.map(|v| v / length);
-            scaling.beta = (root_w / root_x).sqrt();
-            scaling.v = v;
-            scaling.lambda = scaling.times(x);
+            };
+            own.scaling = scaling;
+            own.lambda = scaling.times(x);
         }
         true
     }
@@ -293,14 +277,14 @@ impl Interior {
     /// Factors `T M + W²`, where T adds to each normal rate what its slip changes; whether it is regular.
     fn factor(&mut self) -> bool {
         let n = self.b.len();
-        self.factor.clear();
-        self.factor.extend_from_slice(&self.matrix);
-        for (cone, scaling) in self.cones.iter().zip(&self.scalings) {
-            for (&i, along) in cone.places[..cone.dimension].iter().zip(scaling.along) {
+        self.newton.clear();
+        self.newton.extend_from_slice(&self.matrix);
+        for (cone, own) in self.cones.iter().zip(&self.scaled) {
+            for (&i, along) in cone.places[..cone.dimension].iter().zip(own.along) {
                 if along == 0.0 {
                     continue;
                 }
-                let to = &mut self.factor[cone.places[0] * n..][..n];
+                let to = &mut self.newton[cone.places[0] * n..][..n];
                 for (to, from) in to.iter_mut().zip(&self.matrix[i * n..][..n]) {
                     *to += along * from;
                 }
@@ -308,32 +292,27 @@ impl Interior {
             for (k, &j) in cone.places[..cone.dimension].iter().enumerate() {
                 let mut unit = [0.0; 3];
                 unit[k] = 1.0;
-                let column = scaling.times(scaling.times(unit));
+                let column = own.scaling.times(own.scaling.times(unit));
                 for (&i, entry) in cone.places[..cone.dimension].iter().zip(column) {
-                    self.factor[i * n + j] += entry;
+                    self.newton[i * n + j] += entry;
                 }
             }
         }
-        super::factor(&mut self.factor, &mut self.exchanges)
+        super::factor_rows(&self.newton, n, &mut self.lu)
     }
 
     /// The step to products of forces and rates of this size, corrected by the products of the last step if `is_corrected`.
     fn solve_for_change(&mut self, target: f64, is_corrected: bool) {
         let n = self.b.len();
         // `W dx + W⁻¹ dw = λ \ d` and `dw = T (M dx + missing)`.
-        for (cone, scaling) in self.cones.iter().zip(&self.scalings) {
-            let lambda = scaling.lambda;
-            let mut right = product(lambda, lambda).map(|x| -x);
-            if is_corrected {
-                let own = scaling.times(cone.read(&self.change));
-                let of_rates = scaling.inverse_times(cone.read(&self.change_of_rates));
-                let second = product(own, of_rates);
-                for (right, second) in right.iter_mut().zip(second) {
-                    *right -= second;
-                }
-            }
-            right[0] += target;
-            let wanted = scaling.times(quotient(lambda, right));
+        for (cone, own) in self.cones.iter().zip(&self.scaled) {
+            let changes = if is_corrected {
+                own.changes
+            } else {
+                [[0.0; 3]; 2]
+            };
+            let right = corrected_right_side(own.lambda, target, changes);
+            let wanted = own.scaling.times(right);
             for (&i, wanted) in cone.places[..cone.dimension].iter().zip(wanted) {
                 self.change_of_rates[i] = wanted;
             }
@@ -341,28 +320,28 @@ impl Interior {
         for i in 0..n {
             self.change[i] = self.change_of_rates[i] - self.missing[i];
         }
-        for (cone, scaling) in self.cones.iter().zip(&self.scalings) {
-            let more = super::dot(&scaling.along, &cone.read(&self.missing));
+        for (cone, own) in self.cones.iter().zip(&self.scaled) {
+            let more = super::dot(&own.along, &cone.read(&self.missing));
             self.change[cone.places[0]] -= more;
         }
-        super::solve_factored(&self.factor, &self.exchanges, &mut self.change);
-        for (cone, scaling) in self.cones.iter().zip(&self.scalings) {
-            let squared = scaling.times(scaling.times(cone.read(&self.change)));
+        self.lu.solve([&mut self.change]);
+        for (cone, own) in self.cones.iter().zip(&mut self.scaled) {
+            let change = own.scaling.times(cone.read(&self.change));
+            let squared = own.scaling.times(change);
             for (&i, squared) in cone.places[..cone.dimension].iter().zip(squared) {
                 self.change_of_rates[i] -= squared;
             }
+            let of_rates = own.scaling.inverse_times(cone.read(&self.change_of_rates));
+            own.changes = [of_rates, change];
         }
     }
 
     /// How many times the step leads to the edge of a cone.
     fn length_of_step(&self) -> f64 {
-        let mut length = f64::INFINITY;
-        for cone in &self.cones {
-            for (x, by) in [(&self.x, &self.change), (&self.w, &self.change_of_rates)] {
-                length = length.min(way_to_edge(cone.read(x), cone.read(by)));
-            }
-        }
-        length
+        self.scaled.iter().fold(f64::INFINITY, |length, own| {
+            let ways = own.changes.map(|change| way_to_edge(own.lambda, change));
+            length.min(ways[0]).min(ways[1])
+        })
     }
 }
 
@@ -374,76 +353,4 @@ impl Cone {
         }
         own
     }
-}
-
-impl Scaling {
-    /// `W x`.
-    fn times(&self, x: Triple) -> Triple {
-        let along = 2.0 * super::dot(&self.v, &x);
-        [
-            self.beta * (along * self.v[0] - x[0]),
-            self.beta * (along * self.v[1] + x[1]),
-            self.beta * (along * self.v[2] + x[2]),
-        ]
-    }
-
-    /// `W⁻¹ x`.
-    fn inverse_times(&self, x: Triple) -> Triple {
-        let v = [self.v[0], -self.v[1], -self.v[2]];
-        let along = 2.0 * super::dot(&v, &x);
-        [
-            (along * v[0] - x[0]) / self.beta,
-            (along * v[1] + x[1]) / self.beta,
-            (along * v[2] + x[2]) / self.beta,
-        ]
-    }
-}
-
-/// `x₀² − |x₁|²`, of which rounding takes no digits near the edge of the cone.
-fn determinant(x: Triple) -> f64 {
-    let length = x[1].hypot(x[2]);
-    (x[0] - length) * (x[0] + length)
-}
-
-/// The product of the algebra of cones: `(x·y, x₀ y₁ + y₀ x₁)`.
-fn product(x: Triple, y: Triple) -> Triple {
-    [
-        super::dot(&x, &y),
-        x[0] * y[1] + y[0] * x[1],
-        x[0] * y[2] + y[0] * x[2],
-    ]
-}
-
-/// The y of which `product(x, y)` is this.
-fn quotient(x: Triple, of: Triple) -> Triple {
-    let first = (x[0] * of[0] - x[1] * of[1] - x[2] * of[2]) / determinant(x);
-    [
-        first,
-        (of[1] - first * x[1]) / x[0],
-        (of[2] - first * x[2]) / x[0],
-    ]
-}
-
-/// The greatest `a` with which `x + a d` is in the cone.
-fn way_to_edge(x: Triple, d: Triple) -> f64 {
-    // (x₀ + a d₀)² = |x₁ + a d₁|²: a quadratic equation, of which the least positive root counts.
-    let c = determinant(x);
-    let a = d[0] * d[0] - d[1] * d[1] - d[2] * d[2];
-    let b = x[0] * d[0] - x[1] * d[1] - x[2] * d[2];
-    let root = b * b - a * c;
-    let mut way = f64::INFINITY;
-    if root >= 0.0 {
-        let root = root.sqrt();
-        let q = if b > 0.0 { -(b + root) } else { root - b };
-        for candidate in [q / a, c / q] {
-            if candidate > 0.0 && candidate < way {
-                way = candidate;
-            }
-        }
-    }
-    // Without a crossing of the edge the axis is left only backwards.
-    if d[0] < 0.0 {
-        way = way.min(-x[0] / d[0]);
-    }
-    way
 }

@@ -5,9 +5,7 @@
 //! ```
 //!
 //! K is a cone of revolution, so this is no linear programme. It is solved together with its dual, `least bᵀz with Aᵀz = −c and z ∈ K`, by a
-//! primal-dual interior-point method with the scaling of Yu. E. Nesterov and M. J. Todd (SIAM J. Optim. 8 (1998) 324–364) and the steps of
-//! S. Mehrotra (SIAM J. Optim. 2 (1992) 575–601); the formulas for cones of revolution are those of L. Vandenberghe (*The CVXOPT linear and
-//! quadratic cone program solvers*, 2010).
+//! primal-dual interior-point method, whose scaling and steps are those of [`revolution`](super::super::revolution).
 //!
 //! A sequence of linear programmes with planes that touch the cones would do it, too. But where all contacts of a body are at their limits
 //! together, the greatest margin is at a place where the cones curve in as many directions as there are undetermined forces: each programme
@@ -18,6 +16,9 @@
 //! Slacks are computed from y at each step, so that they contain no error of the steps before, and the margin that is returned is that of
 //! the forces that are returned. By how much it may be below that of the dual solution is its residual.
 
+use super::super::revolution::{
+    SHARE_OF_WAY, Scaling, Triple, corrected_right_side, determinant, length_of, way_to_edge,
+};
 use super::{Limit, MORE_THAN_ROUNDING, PARTS, SharedMargin, Sharer, is_in};
 use crate::math::sqrt;
 
@@ -37,9 +38,6 @@ const GREATEST_MARGIN: f64 = 8.0;
 
 /// A margin above this has no bound.
 const ENDLESS: f64 = 4.0;
-
-/// A step goes this share of the way to the edge of the cones.
-const SHARE_OF_WAY: f64 = 0.99;
 
 /// The most steps.
 const STEPS: usize = 60;
@@ -324,11 +322,10 @@ impl<'w> Programme<'w> {
         // Multipliers that are inverse to the slacks, with the right sum.
         let mut sum = 0.0;
         for cone in 0..self.cones {
-            let of_cone = ENTRIES * cone..ENTRIES * (cone + 1);
-            let slack = &self.slack[of_cone.clone()];
+            let slack = of_cone(self.slack, cone);
             let size = determinant(slack);
             let inverse = [slack[0] / size, -slack[1] / size, -slack[2] / size];
-            self.multiplier[of_cone].copy_from_slice(&inverse);
+            self.multiplier[ENTRIES * cone..ENTRIES * (cone + 1)].copy_from_slice(&inverse);
             sum += self.weights[cone] * inverse[0];
         }
         let entries = ENTRIES * self.cones;
@@ -418,43 +415,28 @@ impl<'w> Programme<'w> {
     /// The scaling with which slacks and multipliers are the same; false if rounding prevents one.
     fn scale(&mut self) -> bool {
         for cone in 0..self.cones {
-            let of_cone = ENTRIES * cone..ENTRIES * (cone + 1);
-            let (slack, multiplier) = (
-                &self.slack[of_cone.clone()],
-                &self.multiplier[of_cone.clone()],
-            );
-            let sizes = [determinant(slack), determinant(multiplier)];
-            if !(sizes[0] > 0.0 && sizes[1] > 0.0) || slack[0] <= 0.0 || multiplier[0] <= 0.0 {
+            let multiplier = of_cone(self.multiplier, cone);
+            let Some(scaling) = Scaling::new(of_cone(self.slack, cone), multiplier) else {
                 return false;
-            }
-            let [of_slack, of_multiplier] = sizes.map(sqrt);
-            let s = [0, 1, 2].map(|i| slack[i] / of_slack);
-            let z = [0, 1, 2].map(|i| multiplier[i] / of_multiplier);
-            let both = sqrt(0.5 * (1.0 + s[0] * z[0] + s[1] * z[1] + s[2] * z[2]));
-            let axis = [
-                0.5 * (s[0] + z[0]) / both,
-                0.5 * (s[1] - z[1]) / both,
-                0.5 * (s[2] - z[2]) / both,
-            ];
-            self.axis[of_cone.clone()].copy_from_slice(&axis);
-            self.factor[cone] = sqrt(of_slack / of_multiplier);
-            let multiplier = [multiplier[0], multiplier[1], multiplier[2]];
-            let scaled = self.scaled_by(cone, multiplier);
-            self.scaled[of_cone].copy_from_slice(&scaled);
+            };
+            let entries = ENTRIES * cone..ENTRIES * (cone + 1);
+            self.axis[entries.clone()].copy_from_slice(&scaling.axis);
+            self.factor[cone] = scaling.factor;
+            self.scaled[entries].copy_from_slice(&scaling.times(multiplier));
         }
         true
     }
 
-    /// `W z` of a cone.
-    fn scaled_by(&self, cone: usize, z: [f64; ENTRIES]) -> [f64; ENTRIES] {
-        let axis = &self.axis[ENTRIES * cone..][..ENTRIES];
-        turned([axis[0], axis[1], axis[2]], z).map(|x| self.factor[cone] * x)
+    fn scaling(&self, cone: usize) -> Scaling {
+        Scaling {
+            factor: self.factor[cone],
+            axis: of_cone(self.axis, cone),
+        }
     }
 
     /// `W⁻¹ s` of a cone.
-    fn scaled_back(&self, cone: usize, s: [f64; ENTRIES]) -> [f64; ENTRIES] {
-        let axis = &self.axis[ENTRIES * cone..][..ENTRIES];
-        turned([axis[0], -axis[1], -axis[2]], s).map(|x| x / self.factor[cone])
+    fn scaled_back(&self, cone: usize, s: Triple) -> Triple {
+        self.scaling(cone).inverse_times(s)
     }
 
     /// `W⁻¹ A` of a cone, row by row.
@@ -543,8 +525,7 @@ impl<'w> Programme<'w> {
             self.correction[column] = self.dual_residual(column);
         }
         for cone in 0..self.cones {
-            let own = &self.multiplier_change[ENTRIES * cone..][..ENTRIES];
-            let back = self.scaled_back(cone, [own[0], own[1], own[2]]);
+            let back = self.scaled_back(cone, of_cone(self.multiplier_change, cone));
             for (entry, back) in back.into_iter().enumerate() {
                 let row = &self.rows[(ENTRIES * cone + entry) * (n + 1)..][..n];
                 for (sum, a) in self.correction.iter_mut().zip(row) {
@@ -573,24 +554,12 @@ impl<'w> Programme<'w> {
 
     /// How far slacks and multipliers may go.
     fn way(&self) -> f64 {
-        let mut way = f64::INFINITY;
-        for cone in 0..self.cones {
-            let of_cone = ENTRIES * cone..ENTRIES * (cone + 1);
-            let scaled = &self.scaled[of_cone.clone()];
-            let size = sqrt(determinant(scaled));
-            let unit = [0, 1, 2].map(|i| scaled[i] / size);
-            for change in [&self.slack_change, &self.multiplier_change] {
-                let change = &change[of_cone.clone()];
-                let ahead = unit[0] * change[0] - unit[1] * change[1] - unit[2] * change[2];
-                let share = (ahead + change[0]) / (unit[0] + 1.0);
-                let aside = [1, 2].map(|i| change[i] - share * unit[i]);
-                let loss = (length_of(aside) - ahead) / size;
-                if loss > 0.0 {
-                    way = way.min(1.0 / loss);
-                }
-            }
-        }
-        way
+        (0..self.cones).fold(f64::INFINITY, |way, cone| {
+            let lambda = of_cone(self.scaled, cone);
+            let ways = [&*self.slack_change, &*self.multiplier_change]
+                .map(|change| way_to_edge(lambda, of_cone(change, cone)));
+            way.min(ways[0]).min(ways[1])
+        })
     }
 
     /// The sum of the products after a step.
@@ -605,23 +574,10 @@ impl<'w> Programme<'w> {
     /// The right side with which all products become equal, with those of the changes of the first step.
     fn put_corrected_right_side(&mut self, aim: f64) {
         for cone in 0..self.cones {
-            let of_cone = ENTRIES * cone..ENTRIES * (cone + 1);
-            let own = &self.scaled[of_cone.clone()];
-            let square = product(own, own);
-            let changed = product(
-                &self.slack_change[of_cone.clone()],
-                &self.multiplier_change[of_cone.clone()],
-            );
-            let mut wanted = [0, 1, 2].map(|i| -square[i] - changed[i]);
-            wanted[0] += aim;
-            let size = determinant(own);
-            let first = (own[0] * wanted[0] - own[1] * wanted[1] - own[2] * wanted[2]) / size;
-            let right = [
-                first,
-                (wanted[1] - first * own[1]) / own[0],
-                (wanted[2] - first * own[2]) / own[0],
-            ];
-            self.right[of_cone].copy_from_slice(&right);
+            let changes =
+                [&*self.slack_change, &*self.multiplier_change].map(|change| of_cone(change, cone));
+            let right = corrected_right_side(of_cone(self.scaled, cone), aim, changes);
+            self.right[ENTRIES * cone..ENTRIES * (cone + 1)].copy_from_slice(&right);
         }
     }
 
@@ -634,10 +590,9 @@ impl<'w> Programme<'w> {
             *x += way * by;
         }
         for cone in 0..self.cones {
-            let of_cone = ENTRIES * cone..ENTRIES * (cone + 1);
-            let change = &self.multiplier_change[of_cone.clone()];
-            let change = self.scaled_back(cone, [change[0], change[1], change[2]]);
-            for (z, by) in self.multiplier[of_cone].iter_mut().zip(change) {
+            let change = self.scaled_back(cone, of_cone(self.multiplier_change, cone));
+            let own = &mut self.multiplier[ENTRIES * cone..ENTRIES * (cone + 1)];
+            for (z, by) in own.iter_mut().zip(change) {
                 *z += way * by;
             }
         }
@@ -684,32 +639,8 @@ fn substitute(row: &mut [f64], following: &[f64], columns: &[f64]) {
     }
 }
 
-fn length_of([x, y]: [f64; 2]) -> f64 {
-    sqrt(x * x + y * y)
-}
-
-/// `x² − |u|²`, without cancellation of squares.
-fn determinant(cone: &[f64]) -> f64 {
-    let size = length_of([cone[1], cone[2]]);
-    (cone[0] - size) * (cone[0] + size)
-}
-
-/// The product of the algebra of the cone, `(x·y, x₀ y₁ + y₀ x₁)`.
-fn product(x: &[f64], y: &[f64]) -> [f64; ENTRIES] {
-    [
-        x[0] * y[0] + x[1] * y[1] + x[2] * y[2],
-        x[0] * y[1] + y[0] * x[1],
-        x[0] * y[2] + y[0] * x[2],
-    ]
-}
-
-/// A vector in the hyperbolic rotation that takes the axis of the cone to `axis`.
-fn turned(axis: [f64; ENTRIES], x: [f64; ENTRIES]) -> [f64; ENTRIES] {
-    let along = axis[1] * x[1] + axis[2] * x[2];
-    let share = x[0] + along / (1.0 + axis[0]);
-    [
-        axis[0] * x[0] + along,
-        x[1] + share * axis[1],
-        x[2] + share * axis[2],
-    ]
+/// The numbers of a cone.
+fn of_cone(numbers: &[f64], cone: usize) -> Triple {
+    let own = &numbers[ENTRIES * cone..][..ENTRIES];
+    [own[0], own[1], own[2]]
 }

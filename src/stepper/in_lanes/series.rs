@@ -14,7 +14,7 @@ use crate::methods::{MAX_STAGES, Method};
 use crate::scalar::{Kernel, Scalar};
 use crate::stages::in_blocks;
 use crate::step_error::StepError;
-use crate::taylor::{Coefficients, motion_as_plain};
+use crate::taylor::{Coefficients, motion};
 use crate::{System, Vector};
 use lagrangian_native::{Lanes, Number};
 
@@ -152,7 +152,7 @@ impl Expansions {
         match &self.powers {
             Some(powers) if has(along) => {
                 for (i, [work, lost]) in powers.of_stages.iter().enumerate().take(stages).skip(1) {
-                    to.quadratures.take(i, work[lane], lost[lane]);
+                    to.take_powers(i, [work[lane], lost[lane]]);
                 }
             }
             _ => to.take_powers_along_series(h),
@@ -172,7 +172,7 @@ impl Expansions {
             match &self.powers {
                 Some(powers) if has(at_end) => {
                     let [work, lost] = powers.of_stages[stages];
-                    to.quadratures.take(stages, work[lane], lost[lane]);
+                    to.take_powers(stages, [work[lane], lost[lane]]);
                 }
                 _ => to.take_powers_at_end(),
             }
@@ -258,7 +258,7 @@ impl Kernel<Wide> for Along<'_> {
         } = self;
         let tau = N::load(tau);
         in_blocks!(a.len(), |start, B| {
-            let [by_q, by_v, there] = motion_as_plain::<B, 3, N>(&Rows(coefficients), start, tau);
+            let [by_q, by_v, there] = motion::<B, 3, N>(&Rows(coefficients), start, tau);
             for k in 0..B {
                 q[start + k] = (N::load(coefficients[0][start + k]) + by_q[k]).store();
                 v[start + k] = (N::load(coefficients[1][start + k]) + by_v[k]).store();

@@ -204,3 +204,9 @@ impl ConvergenceTest {
         }
     }
 }
+
+/// `x · y`: with rates and momenta, a square in the metric of inertia.
+pub(super) fn dot<V: Vector>(x: &V, y: &V) -> f64 {
+    let pairs = x.as_slice().iter().zip(y.as_slice());
+    pairs.map(|(x, y)| x * y).sum()
+}

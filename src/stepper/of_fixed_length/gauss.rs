@@ -19,7 +19,7 @@
 
 use std::vec::Vec;
 
-use super::canonical::{Canonical, ConvergenceTest};
+use super::canonical::{Canonical, ConvergenceTest, dot};
 use super::lobatto::Lobatto;
 use super::reactions::Reactions;
 use super::{Fixed, Stepper, add, check_finite};
@@ -354,9 +354,4 @@ fn weighted<V: Vector>(weights: &[f64], stages: &[V], coordinate: usize) -> f64 
     pairs
         .map(|(weight, stage)| weight * stage.as_slice()[coordinate])
         .sum()
-}
-
-pub(super) fn dot<V: Vector>(x: &V, y: &V) -> f64 {
-    let pairs = x.as_slice().iter().zip(y.as_slice());
-    pairs.map(|(x, y)| x * y).sum()
 }

@@ -9,8 +9,7 @@
 //! E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006, section VII.1.4, eq. (1.26). `F` is dp/dt
 //! without the forces of constraints.
 
-use super::canonical::{Canonical, ConvergenceTest};
-use super::gauss::dot;
+use super::canonical::{Canonical, ConvergenceTest, dot};
 use super::reactions::Reactions;
 use super::{Fixed, Stepper, add};
 use crate::at::At;

@@ -2,8 +2,7 @@
 
 use std::vec::Vec;
 
-use super::canonical::Canonical;
-use super::gauss::dot;
+use super::canonical::{Canonical, dot};
 use crate::constraints::algebra::{backward, cholesky, forward};
 use crate::stages::Point;
 use crate::{StepError, System, Vector};

@@ -107,10 +107,7 @@ impl Emitter<'_> {
             || self.parts_of_gaps_read_prepared();
         self.writer.line(format!("absent [{}]", absent.join(" ")));
         self.writer.line(flag("intervals", rounds_prepared, "yes"));
-        if let Some(call) = self
-            .call_of_series()
-            .filter(|_| has_lanes && never_collides)
-        {
+        if let Some(call) = self.call_of_series().filter(|_| has_lanes) {
             let runtime = &self.options.runtime;
             let lists = self.lists_of_series(&format!("{runtime}::Lanes<{register}>"));
             self.writer.open("batch_series {");
@@ -326,6 +323,13 @@ impl Emitter<'_> {
         let [coarse, fine] = series.series().cost(accelerations.cost());
         let costs = Layout::Atom(format!("[{coarse:.1}, {fine:.1}]"));
         self.row("costs", "series_cost", &["p"], Some(costs));
+        if self.program.has_powers() != [false; 2] {
+            let powers = self.program.costs_of_powers();
+            let [of_evaluation, coarse, fine] =
+                (series.series()).cost_of_powers(accelerations.cost(), powers);
+            let costs = format!("[{of_evaluation:.1}, {coarse:.1}, {fine:.1}]");
+            self.row("more", "powers_cost", &["p"], Some(Layout::Atom(costs)));
+        }
     }
 
     /// Writes a method for each quantity of this machine that requires no solution of equations.

@@ -2,6 +2,7 @@
 //! different elimination from that of the models.
 
 mod across;
+mod contacts;
 
 use std::path::Path;
 use std::time::SystemTime;

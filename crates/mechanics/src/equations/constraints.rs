@@ -12,7 +12,8 @@
 
 use lagrangian_symbolic::{Expr, substitute};
 
-use super::kinematics::{Variables, gradient, shorter};
+use super::kinematics::{Variables, gradient};
+use super::shorter::shorter;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, RelativeMotion};
 use lagrangian_spec::model::element::Rolling;
@@ -169,8 +170,9 @@ fn of_rolling<'d>(
     let RelativeMotion { gap, slip } =
         circles::contact_motion(model, &rolling.circles, &mut x.without_acceleration(model));
     let part = |part: &str| format!("{}.{part}", rolling.name);
-    let gap = Statement::Position(shorter(gap));
-    let slip = Statement::Rate(shorter(slip));
+    let [gap, slip] = [gap, slip].map(|e| shorter(model, (e, gap)));
+    let gap = Statement::Position(gap);
+    let slip = Statement::Rate(slip);
     [
         equation(model, x, part("gap"), gap, Unit::METRE),
         equation(model, x, part("slip"), slip, Unit::METRE.rate()),

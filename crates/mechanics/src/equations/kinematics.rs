@@ -1,6 +1,6 @@
 //! Velocities and accelerations of bodies, by differentiating their positions.
 
-use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, normal};
+use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent};
 
 use lagrangian_spec::model::circles::planar_angle;
 use lagrangian_spec::model::{
@@ -564,16 +564,6 @@ fn components_along<'d>(axes: &[Vector<'d>; 3], u: &Vector<'d>) -> Vector<'d> {
 /// Three components as an array.
 pub(super) fn vector<'d>(components: &[Expr<'d>]) -> Vector<'d> {
     [0, 1, 2].map(|k| components[k])
-}
-
-/// The largest number of terms of a gap or a slip that is multiplied out to find what cancels: the distance of two circles in
-/// polar coordinates has a dozen.
-const TERMS: usize = 200;
-
-/// A gap or a slip as it is or multiplied out, whichever is shorter. Terms that cancel by identities vanish; a form that is only
-/// longer is not taken, since its terms may be large numbers that cancel in rounding.
-pub(super) fn shorter(e: Expr<'_>) -> Expr<'_> {
-    normal::readable(e, TERMS)
 }
 
 /// All partial derivatives, by one reverse sweep.

@@ -50,17 +50,17 @@ impl<'r> Refusals<'r> {
         self.any = true;
     }
 
-    /// Refuses the sections that neither unilateral contacts nor guides are derived with.
-    fn refuse_sections(&mut self, model: &Model<'_>, beside: &str, span: Span) {
+    /// Refuses the sections that guides are not derived with.
+    fn refuse_sections(&mut self, model: &Model<'_>) {
         let sections = [
             (SectionKind::Approximations, model.approximations.is_empty()),
             (SectionKind::Derivatives, model.derivatives.is_empty()),
             (SectionKind::Stages, model.stages.is_empty()),
         ];
         for (section, _) in sections.into_iter().filter(|(_, is_empty)| !is_empty) {
-            let span = model.section(section).unwrap_or(span);
-            let message = format!("`{section}` of a machine with `{beside}` cannot be derived yet");
-            let help = format!("without `{section}`, or without `{beside}`, it can be derived");
+            let span = model.section(section).unwrap_or(model.span);
+            let message = format!("`{section}` of a machine with `sliding` cannot be derived yet");
+            let help = format!("without `{section}`, or without `sliding`, it can be derived");
             self.refuse(Code::NotSupported, span, message, help);
         }
     }
@@ -68,16 +68,15 @@ impl<'r> Refusals<'r> {
 
 /// Refuses what is not yet supported together with unilateral contacts. Returns true if anything is refused.
 fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
-    let Some(first) = model.contacts.first() else {
+    if model.contacts.is_empty() {
         return false;
-    };
+    }
     let mut refusals = Refusals::new(report);
     if let Some(sliding) = model.sliding().first() {
         let message = "`sliding` of a machine with `contacts` cannot be derived yet";
         let help = "without `sliding`, or without `contacts`, it can be derived";
         refusals.refuse(Code::NotSupported, sliding.span, message, help);
     }
-    refusals.refuse_sections(model, "contacts", first.span);
     let contacts = model.contacts.iter();
     for contact in contacts.filter(|c| c.has_two_tangents(model.space)) {
         refuse_laws_of_two_tangents(contact, &mut refusals);
@@ -208,7 +207,7 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
              slides on a surface";
         refusals.refuse(Code::NotSupported, contact.span, message, help);
     }
-    refusals.refuse_sections(model, "sliding", model.span);
+    refusals.refuse_sections(model);
     if let Some(contact) = sliding.get(MOST_CONTACTS) {
         let count = sliding.len();
         let message = format!("{count} contacts that stick or slide are too many");

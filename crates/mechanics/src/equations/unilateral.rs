@@ -15,8 +15,9 @@
 
 use lagrangian_symbolic::{Expr, Tangent};
 
-use super::kinematics::{Variables, gradient, shorter};
+use super::kinematics::{Variables, gradient};
 use super::refusal::refuse_large_contact;
+use super::shorter::shorter;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, RelativeMotion};
@@ -172,6 +173,8 @@ fn of_contact<'d>(
     contact: &model::Contact<'d>,
 ) -> Vec<UnilateralEquation<'d>> {
     let touch = Touch::of(model, coasting, contact);
+    let at = touch.gap;
+    let shorter = |e: Expr<'d>| shorter(model, (e, at));
     let zero = model.dag.zero();
     let has_friction = contact.friction.is_some();
     let (gap, rate, slip) = match touch.corner_rate {

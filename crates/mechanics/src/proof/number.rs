@@ -4,7 +4,7 @@ use lagrangian_scalar::{Ball, Residue, Scalar};
 use lagrangian_symbolic::{Expr, nearest};
 
 use crate::equations::literal::{Lagrange, State};
-use crate::lower::states::of_length_one;
+use crate::states::of_length_one;
 use lagrangian_program::rounding::SplitMix;
 
 /// The result of testing a number that ought to be 0.

@@ -8,6 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::residual::{Derivative, Form, residual, split};
 use crate::equations::kinetic_energies;
+use crate::equations::shorter::is_as_accurate;
 
 /// The largest number of coordinates of machines whose equations are derived in several forms. Their number of terms grows with the cube of the
 /// number of coordinates; for more of them positions have always been the shorter form.
@@ -21,7 +22,11 @@ pub(super) fn series<'d>(model: &Model<'d>) -> Result<Vec<Series>, NoSeries> {
     let mut found = vec![in_form(model, Form::Positions)?];
     if model.coordinates.len() <= MOST_WITH_CHOICE {
         let [in_frames, without_spin] = kinetic_energies(model);
-        let mut energies = vec![in_frames, without_spin, readable(in_frames, MOST_TERMS)];
+        let mut energies = vec![in_frames, without_spin];
+        let multiplied_out = readable(in_frames, MOST_TERMS);
+        if is_as_accurate(model, [in_frames, multiplied_out], None) {
+            energies.push(multiplied_out);
+        }
         energies.dedup();
         let momenta = energies.into_iter().map(Form::Momenta);
         found.extend(momenta.filter_map(|form| in_form(model, form).ok()));

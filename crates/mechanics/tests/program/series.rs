@@ -82,6 +82,32 @@ fn costs_of_steps_are_those_measured_to_within_a_factor_of_two() {
     }
 }
 
+/// What an energy balance adds to an evaluation of the crusher, and to a step with 12 and with 20 coefficients, in evaluations: from the times of runs with and without
+/// it, compiled, as of `cargo bench --bench time_against_error`, at the tolerances 1e-4 and 1e-9. Machines without powers pay nothing.
+#[test]
+fn costs_of_powers_are_those_measured_to_within_a_factor_of_two() {
+    let costs = |name: &str| {
+        machine(name, &[], |machine| {
+            let accelerations = machine.program.function(Role::Accelerations);
+            let accelerations = accelerations.expect("accelerations").cost();
+            let series = ProvedSeries::derive(&machine.model).expect("a series");
+            let series = series.series();
+            series.cost_of_powers(accelerations, machine.program.costs_of_powers())
+        })
+    };
+    for (cost, measured) in costs("crusher9").into_iter().zip([0.36, 15.7, 13.8]) {
+        println!("{cost:.1}; measured {measured}");
+        assert!((0.5..2.0).contains(&(cost / measured)), "{cost}");
+    }
+    assert_eq!(
+        machine("heavy_top", &[], |machine| machine
+            .program
+            .costs_of_powers()
+            .count()),
+        0
+    );
+}
+
 /// Counts by hand: each link has a sine, a cosine and two projections; the crusher's nine coordinates rotate four
 /// bodies and carry spring forces, which are linear in the rest.
 #[test]

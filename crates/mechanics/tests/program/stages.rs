@@ -293,3 +293,31 @@ fn what_is_repeated_is_short() {
         });
     }
 }
+
+/// Unilateral contacts are in other functions: stages, derivatives and approximations are derived and proved beside them.
+#[test]
+fn machines_with_contacts_have_stages_and_derivatives() {
+    for name in [
+        "bouncing_ball",
+        "colliding_crusher",
+        "cue_ball",
+        "impact_oscillator",
+        "rocking_block",
+        "slider_crank_clearance",
+        "woodpecker",
+    ] {
+        let text = library_text(&format!("contacts/{name}"));
+        let end = text.rfind('}').expect("a machine ends");
+        let text = format!(
+            "{} stages {{ time, coordinates }} derivatives {{ coordinates, rates, parameters }} }}",
+            &text[..end]
+        );
+        compiled(&text, &[], |Compiled { program, .. }| {
+            assert_eq!(program.verify(), Ok(()), "{name}");
+            assert!(!program.unilateral.is_empty(), "{name}");
+            assert!(!program.staged_roles().is_empty(), "{name}");
+            assert!(program.function(Role::Derivatives).is_some(), "{name}");
+            assert!(program.function(Role::Gaps).is_some(), "{name}");
+        });
+    }
+}

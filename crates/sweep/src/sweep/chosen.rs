@@ -10,6 +10,10 @@ pub(super) fn methods(choices: &[MethodChoice], handovers: &[Handover]) -> Strin
         let MethodChoice {
             t, method, reason, ..
         } = choice;
+        // A run whose flights go by series changes as often as its contacts do.
+        if matches!(reason, MethodReason::Open | MethodReason::Closed) {
+            continue;
+        }
         let name = method.tableau.name;
         if text.is_empty() {
             (text, begun_with) = (name.to_owned(), name);
@@ -17,7 +21,7 @@ pub(super) fn methods(choices: &[MethodChoice], handovers: &[Handover]) -> Strin
             text += &format!(", {name} from {t} s{}", in_short(*reason));
         }
     }
-    // Machines with contacts choose once, and then only change to time stepping and back.
+    // Changes to time stepping and back, of machines with contacts.
     for Handover { t, step, .. } in handovers {
         let name = step.map_or(begun_with, |_| "moreau");
         text += &format!(", {name} from {t} s");

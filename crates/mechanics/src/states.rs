@@ -98,18 +98,42 @@ pub(crate) fn of_length_one(q: &mut [f64], four: [usize; 4]) {
 }
 
 /// The argument of each symbol.
-struct Symbols(FxHashMap<Symbol, Source>);
+pub(crate) struct Symbols(FxHashMap<Symbol, Source>);
 
 impl Symbols {
-    fn of(model: &Model<'_>) -> Symbols {
-        Symbols(super::sources(model))
+    pub fn of(model: &Model<'_>) -> Symbols {
+        Symbols(sources(model))
     }
 
-    fn value(&self, symbol: Symbol, parameters: &[f64], state: &State) -> f64 {
+    /// The value of a symbol at a state; NaN for a symbol that is none of the model.
+    pub fn value(&self, symbol: Symbol, parameters: &[f64], state: &State) -> f64 {
         match self.0.get(&symbol) {
             Some(Source::Parameter(index)) => parameters[*index as usize],
             Some(source) => state.read(*source),
             None => f64::NAN,
         }
     }
+}
+
+/// The source of each symbol of a model.
+pub(crate) fn sources(model: &Model<'_>) -> FxHashMap<Symbol, Source> {
+    let mut sources = FxHashMap::default();
+    let mut add = |symbol: Expr<'_>, source: Source| {
+        if let Some(symbol) = symbol.as_symbol() {
+            sources.insert(symbol, source);
+        }
+    };
+    add(model.time, Source::Time);
+    for (parameter, index) in model.parameters.iter().zip(0..) {
+        add(parameter.symbol, Source::Parameter(index));
+    }
+    for (coordinate, index) in model.coordinates.iter().zip(0..) {
+        add(coordinate.q, Source::Coordinate(index));
+        add(coordinate.v, Source::Velocity(index));
+        add(coordinate.a, Source::Acceleration(index));
+    }
+    for (input, index) in model.inputs.iter().zip(0..) {
+        add(input.symbol, Source::Input(index));
+    }
+    sources
 }
