@@ -184,28 +184,44 @@ fn each_method_has_its_order_where_inertia_changes_with_place_and_time() {
     }
 }
 
+/// The residuals of the energy balance with steps of two lengths fall with the order of the method.
+fn check_books<M: Machine>(
+    machine: &M,
+    method: &'static Method,
+    (lengths, until): ([f64; 2], f64),
+) {
+    let residuals = lengths.map(|h| {
+        let run = Simulation::new(machine)
+            .method(method)
+            .longest_step(h)
+            .until(until)
+            .energy_balance(true)
+            .run(machine.start())
+            .unwrap();
+        run.energy_balance().unwrap().residual().abs()
+    });
+    let Method { tableau, .. } = method;
+    check_order(tableau.name, "the books", tableau.order, residuals);
+}
+
 /// Without drag the particle keeps its energy; with drag the energy balance accounts for the loss.
 #[test]
 fn the_books_close_with_the_order_of_the_method() {
     let machine = Turning { drag: 0.5 };
     for method in &FIXED_STEP_METHODS {
-        let residuals = lengths(method).map(|h| {
-            let run = Simulation::new(&machine)
-                .method(method)
-                .longest_step(h)
-                .until(2.0)
-                .energy_balance(true)
-                .run(machine.start())
-                .unwrap();
-            run.energy_balance().unwrap().residual().abs()
-        });
-        check_order(
-            method.tableau.name,
-            "the books",
-            method.tableau.order,
-            residuals,
-        );
+        check_books(&machine, method, (lengths(method), 2.0));
     }
+}
+
+/// Lengths of steps in which the leading term of the error dominates and exceeds round-off, for constraints whose motions have periods of about 2 s.
+fn lengths_with_constraints(method: &Method) -> [f64; 2] {
+    let h = match method.tableau.order {
+        1 | 2 => 1.0 / 128.0,
+        4 => 1.0 / 32.0,
+        6 => 1.0 / 16.0,
+        _ => 1.0 / 8.0,
+    };
+    [h, 0.5 * h]
 }
 
 /// A winch does work on its load by the reaction of a moving constraint.
@@ -213,28 +229,8 @@ fn the_books_close_with_the_order_of_the_method() {
 fn the_books_of_moving_constraints_close_with_the_order_of_the_method() {
     let machine = constrained::winch();
     for method in &FIXED_STEP_METHODS {
-        let h = match method.tableau.order {
-            1 | 2 => 1.0 / 128.0,
-            4 => 1.0 / 32.0,
-            6 => 1.0 / 16.0,
-            _ => 1.0 / 8.0,
-        };
-        let residuals = [h, 0.5 * h].map(|h| {
-            let run = Simulation::new(&machine)
-                .method(method)
-                .longest_step(h)
-                .until(1.0)
-                .energy_balance(true)
-                .run(machine.start())
-                .unwrap();
-            run.energy_balance().unwrap().residual().abs()
-        });
-        check_order(
-            method.tableau.name,
-            "the work of a constraint",
-            method.tableau.order,
-            residuals,
-        );
+        let lengths = lengths_with_constraints(method);
+        check_books(&machine, method, (lengths, 1.0));
     }
 }
 
@@ -410,14 +406,7 @@ fn methods_with_constraints_have_their_order() {
         };
         let exact = run(Method::DOP853, f64::INFINITY, 1e-13);
         for method in &FIXED_STEP_METHODS {
-            // The motion has periods of about 2 s; the leading term of the error must dominate, and exceed round-off.
-            let h = match method.tableau.order {
-                1 | 2 => 1.0 / 128.0,
-                4 => 1.0 / 32.0,
-                6 => 1.0 / 16.0,
-                _ => 1.0 / 8.0,
-            };
-            let errors = [h, 0.5 * h].map(|h| {
+            let errors = lengths_with_constraints(method).map(|h| {
                 let q = run(method, h, 1e-13);
                 let errors = q.iter().zip(&exact).map(|(q, exact)| (q - exact).abs());
                 errors.fold(0.0, f64::max)
