@@ -1,8 +1,6 @@
 //! Runs by Taylor series of machines with unilateral contacts: while all contacts are open a run goes by series, and otherwise by `dop853`. Impacts, their
 //! instants and the ends of runs are those of closed forms in double-doubles, and of runs by `dop853`.
 
-use std::time::Instant;
-
 use crate::support::library;
 use lagrangian::interpreted::{Engine, InterpretedMachine, Named};
 use lagrangian::{
@@ -13,28 +11,10 @@ use lagrangian_scalar::{DoubleDouble, Scalar};
 type Run = Solution<InterpretedMachine>;
 
 /// A double pendulum before a wall, which both bobs may hit.
-const WALL: &str = "machine Wall in plane {
-    parameters { m: kg = 1, l: m = 1, wall: m = 0.4, e: 1 = 0.9, g: m/s^2 = 9.81 }
-    coordinates { a: rad = -1.2, b: rad = -0.6 }
-    bodies {
-        first { mass: m, at: l*(sin(a), -cos(a)) },
-        second { mass: m, at: l*(sin(a) + sin(b), -cos(a) - cos(b)) },
-    }
-    gravity (0, -g);
-    contacts {
-        upper { gap: wall - l*sin(a), restitution: e },
-        lower { gap: wall - l*(sin(a) + sin(b)), restitution: e },
-    }
-}";
+const WALL: &str = include_str!("../data/flights/wall.machine");
 
 /// A ball that bounces from a floor and a ceiling that yields.
-const YIELDING: &str = "machine Yielding in plane {
-    parameters { m: kg = 0.1, e: 1 = 0.9, k: N/m = 900, d: N*s/m = 0.1, g: m/s^2 = 9.81 }
-    coordinates { y: m = 0.5, der(y): m/s = 6 }
-    bodies { ball { mass: m, at: (0, y) } }
-    gravity (0, -g);
-    contacts { floor { gap: y, restitution: e }, ceiling { gap: 1 - y, compliance: linear(k, d) } }
-}";
+const YIELDING: &str = include_str!("../data/flights/yielding.machine");
 
 /// The text of a machine with its series.
 fn machine(text: &str) -> InterpretedMachine {
@@ -483,61 +463,4 @@ fn what_never_flies_goes_by_dop853() {
     assert_eq!(methods(&by_series), ["dop853"]);
     assert_eq!(explicit.end(), by_series.end());
     assert_eq!(explicit.statistics().steps, by_series.statistics().steps);
-}
-
-/// Times and errors of both methods, for `docs/benchmarks.md`: errors of the end, compared with a run by the other method at the finest tolerance.
-#[test]
-#[ignore = "measures times"]
-fn flights_against_dop853() {
-    let mut oscillator = of_library("impact_oscillator");
-    for (name, value) in [("F", 1.0), ("stop", Oscillator::STOP)] {
-        oscillator.set(name, value).unwrap();
-    }
-    for (name, mut machine, until, long) in [
-        ("bouncing ball", of_library("bouncing_ball"), 4.0, 4.0),
-        ("impact oscillator", oscillator, 40.0, 400.0),
-        ("double pendulum before a wall", machine(WALL), 3.0, 50.0),
-        ("ball and ceiling that yields", machine(YIELDING), 3.0, 50.0),
-        ("woodpecker", of_library("woodpecker"), 0.6, 1.0),
-        (
-            "colliding crusher",
-            of_library("colliding_crusher"),
-            0.4,
-            0.4,
-        ),
-    ] {
-        let _ = machine.set_engine(Engine::Jit);
-        let made = |method, tolerance, until| {
-            let run = Simulation::new(&machine)
-                .method(method)
-                .tolerance(tolerance);
-            let run = run.until(until).forget_steps();
-            run.run(machine.start()).unwrap()
-        };
-        let references = [
-            made(&TAYLOR, 1e-14, until),
-            made(Method::DOP853, 1e-14, until),
-        ];
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let methods = [Method::DOP853, &TAYLOR];
-            let mut least = [f64::INFINITY; 2];
-            for _ in 0..15 {
-                for (least, method) in least.iter_mut().zip(methods) {
-                    let clock = Instant::now();
-                    made(method, tolerance, long);
-                    *least = least.min(clock.elapsed().as_secs_f64());
-                }
-            }
-            let [one, other] = [0, 1].map(|which| {
-                let run = made(methods[which], tolerance, until);
-                distance_of_states(run.end(), references[which].end())
-            });
-            println!(
-                "| {name} | {tolerance:.0e} | {one:.1e} | {other:.1e} | {:.0} µs | {:.0} µs | {:.2} |",
-                1e6 * least[0],
-                1e6 * least[1],
-                least[1] / least[0]
-            );
-        }
-    }
 }
