@@ -4,7 +4,7 @@
 //! about its own axis occurs in the position of each of its particles and in none of its equations.
 //! So identities are not derived but tested: two expressions are evaluated at points of a prime
 //! field, where nothing is rounded. Different values prove a difference; equal values at a random
-//! point leave a probability of about the degree of the expressions over 2⁴⁸ that they differ after
+//! point leave a probability of about the degree of the expressions over 2⁴⁰ that they differ after
 //! all (J. T. Schwartz, *Fast probabilistic algorithms for verification of polynomial identities*,
 //! J. ACM 27 (1980) 701–717).
 //!

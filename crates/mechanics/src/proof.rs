@@ -18,7 +18,7 @@
 //!
 //! The comparison is made first in a prime field ([`Residue`]), at [`POINTS`] random points. There
 //! nothing is rounded: equal values are identical, and different ones agree with a probability of
-//! about the degree of their difference over 2⁶¹, or over 2⁴⁸ if it is a difference in angles (J. T.
+//! about the degree of their difference over 2⁶¹, or over 2⁴⁰ if it is a difference in angles (J. T.
 //! Schwartz, J. ACM 27 (1980) 701–717; R. Zippel, EUROSAM 1979). Rows of matrices and vectors are
 //! compared all at once, multiplied by a random vector, which leaves the same probability; if that
 //! fails they are compared one by one, to say which is wrong.
@@ -214,7 +214,7 @@ fn decide(
             ComparisonResult::Wrong(wrong),
         ) => Err((wrong, Witness::States)),
         (_, ComparisonResult::Equal) | (ComparisonResult::Equal, _) => Ok(()),
-        (ComparisonResult::Wrong(wrong), _) => Err((wrong, Witness::Field)),
+        (ComparisonResult::Wrong(wrong), _) => Err((wrong, Witness::FieldAlone)),
         (ComparisonResult::Exhausted(comparisons), _)
         | (_, ComparisonResult::Exhausted(comparisons)) => {
             Err((Disagreement::Exhausted { comparisons }, Witness::States))

@@ -22,14 +22,14 @@
 //! multiplication in GF(p²), with a generator g. For a 2-adic number x let
 //!
 //! ```text
-//! e^{ix} := g^(2¹² x mod 2⁶¹)
+//! e^{ix} := g^(2²⁰ x mod 2⁶¹)
 //! ```
 //!
-//! which is a homomorphism from the 2-adic numbers x with at most 12 halvings to the circle. Hence
+//! which is a homomorphism from the 2-adic numbers x with at most 20 halvings to the circle. Hence
 //! sin² + cos² = 1, all addition theorems, double angles, and half, third, … angles hold exactly,
-//! without any bookkeeping by the evaluator. A symbol takes 2⁴⁸ different angles (it is given an
+//! without any bookkeeping by the evaluator. A symbol takes 2⁴⁰ different angles (it is given an
 //! odd 2-adic image, so that division keeps all bits), so a wrong identity of degree d in the sines
-//! and cosines of a symbol passes with probability at most 2d/2⁴⁸.
+//! and cosines of a symbol passes with probability at most 2d/2⁴⁰, and at each of several points anew.
 //!
 //! # π
 //!
@@ -38,7 +38,7 @@
 //! its part bπ as long as it has one (through sums, and products with rationals), and
 //! e^{i(x+bπ)} = e^{ix} ζ(b) with ζ(b) a root of unity of the right order. Those of order 2^k
 //! lie on the circle; GF(p²) also has those of order 3, 9, 5, 25, 7, 11, 13, …, the divisors of
-//! p − 1, so that cos(2π/3) = −1/2. A 2-adic image of π with g^(2¹²π) = −1 would be simpler,
+//! p − 1, so that cos(2π/3) = −1/2. A 2-adic image of π with g^(2²⁰π) = −1 would be simpler,
 //! but would make sin(2πft) vanish for all symbols f and t, and e^{iπ/3} equal −1: it would
 //! accept wrong equations.
 //!
@@ -67,7 +67,7 @@
 //! An equation that passes is true, up to the stated probability. A true one may fail if it needs
 //! more than the above: an angle that itself contains sines or roots in two forms (their 2-adic
 //! images are hashes of the field's image, so sin²x + cos²x = 1 is not known inside an angle); an
-//! angle with more than 12 halvings, which is opaque (0.1 taken from an `f64` has 55, taken as the
+//! angle with more than 20 halvings, as a number with more than 20 decimals, which is opaque (0.1 taken from an `f64` has 55, taken as the
 //! ratio 1/10 has 1); a positive constant other than a power of 2 moved out of a root or an
 //! absolute value, as in √(9x) = 3√x; functional equations of exp, ln and powers.
 
@@ -83,10 +83,13 @@ use ratio::Ratio;
 use two_adic::TwoAdic;
 
 /// The number of halvings of an angle beyond which its sine becomes opaque: e^{ix} = g^(2^HALVINGS x).
-const HALVINGS: i32 = 12;
+const HALVINGS: i32 = 20;
 
 /// log₂ of the order of the circle group.
 const CIRCLE_BITS: u32 = 61;
+
+/// A logarithm on the circle that this power of 2 divides is taken for a fraction of π, whose denominator is then at most 2¹².
+const SIMPLE_TURN_BITS: u32 = 48;
 
 /// ((4 + i)/(4 − i))⁷: a point of order 2⁶¹, chosen among its odd powers such that g^(2⁵⁹) = i, the
 /// right angle, and g^(2⁵⁸) = (1 + i)/√2.
@@ -278,7 +281,7 @@ impl Residue {
             });
             if let Some(turn) = simple_turn(log) {
                 // A fraction of π with a power of 2 in the denominator: π/4 for tan = 1. By chance,
-                // once in 2⁴⁰.
+                // once in 2⁴⁸ times, and for an angle that was itself made from a 2-adic number once in 2²⁸.
                 let angle = Residue::pi_times(turn);
                 return if negated { -angle } else { angle };
             }
@@ -739,14 +742,14 @@ fn circle_logarithm(mut point: Field) -> u64 {
     log
 }
 
-/// b ∈ (−1, 1] with g^log = e^{iπb}, if b has at most 20 halvings.
+/// b ∈ (−1, 1] with g^log = e^{iπb}, if b has at most 12 halvings.
 fn simple_turn(log: u64) -> Option<Ratio> {
     let half_turn = 1i64 << (CIRCLE_BITS - 1);
     let mut signed = log as i64;
     if signed > half_turn {
         signed -= 2 * half_turn;
     }
-    if signed.trailing_zeros() < 40 {
+    if signed.trailing_zeros() < SIMPLE_TURN_BITS {
         return None;
     }
     Ratio::new(signed as i128, half_turn as i128)

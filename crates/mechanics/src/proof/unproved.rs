@@ -19,11 +19,14 @@ pub struct Unproved {
     pub(super) description: String,
 }
 
-/// The numbers in which a program was found wrong.
+/// The numbers in which a program was found to differ from the equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Witness {
     /// The numbers of the prime field.
     Field,
+    /// The numbers of the prime field alone, since round-off left the states in double-doubles undecided. The field does not know
+    /// every identity (see `lagrangian_scalar::residue`), so the program may be right.
+    FieldAlone,
     /// Double-doubles with a bound of their error.
     States,
 }
@@ -44,6 +47,11 @@ impl Unproved {
                 format!("this machine could not be proved: {comparisons} states were compared, and too few of them have accelerations"),
             )
             .help("the size of its equations limits the number of states that are compared; if it is singular at most states, state what holds it, or make it smaller"),
+            _ if self.witness == Witness::FieldAlone => {
+                Diagnostic::new(Code::Internal, model.span, self.to_string()).help(
+                    "the prime field knows angles of at most 20 decimals, and round-off is small where the parameters of the machine are not many orders of magnitude apart: shorten such angles or write them as fractions of `pi`, or scale the parameters; if neither is the reason, please report the spec",
+                )
+            }
             _ => Diagnostic::new(Code::Internal, model.span, self.to_string()).help(
                 "this is a defect of lagrangian, not of the spec: nothing was emitted; please report it together with the spec",
             ),
@@ -54,7 +62,7 @@ impl Unproved {
 impl fmt::Display for Unproved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let witness = match self.witness {
-            Witness::Field => "point",
+            Witness::Field | Witness::FieldAlone => "point",
             Witness::States => "state",
         };
         let seed = match self.disagreement {
@@ -69,11 +77,17 @@ impl fmt::Display for Unproved {
             | Disagreement::NotCompared { .. }
             | Disagreement::Exhausted { .. } => String::new(),
         };
-        write!(
-            f,
-            "the program generated for this machine is wrong: {} what Lagrange's equations say{seed}",
-            self.description
-        )
+        let description = &self.description;
+        match self.witness {
+            Witness::Field | Witness::States => write!(
+                f,
+                "the program generated for this machine is wrong: {description} what Lagrange's equations say{seed}"
+            ),
+            Witness::FieldAlone => write!(
+                f,
+                "the program generated for this machine could not be proved: in the prime field {description} what Lagrange's equations say{seed}, and in double-double arithmetic round-off leaves it undecided"
+            ),
+        }
     }
 }
 

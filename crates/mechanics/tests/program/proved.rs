@@ -381,6 +381,39 @@ fn machines_whose_accelerations_are_determined_nowhere_are_let_through_with_thei
     });
 }
 
+/// A chain whose masses are 10⁴⁰ apart: no state in double-double arithmetic decides about it. The prime field knows its angles as long as they have at most 20
+/// decimals; beyond, the program may be right, and nothing says that it is wrong.
+#[test]
+fn a_program_that_is_not_proved_is_not_called_wrong() {
+    let chain = |decimals: &str| {
+        let angles = [0.5, -0.8, 0.3].map(|angle| format!("{angle}{decimals}"));
+        let [a, b, c] = &angles;
+        format!(
+            "machine Chain in plane {{
+                coordinates {{ p: rad = 0.2, q: rad = 2, r: rad = -2 }}
+                bodies {{
+                    first {{ mass: 1e20*kg, inertia: 1e20*kg*m^2, at: 1.2*m*(sin(p+({a})), -cos(p+({a}))), angle: p }},
+                    second {{ mass: 1e-20*kg, inertia: 1*kg*m^2, at: first.at + 0.9*m*(sin(q+({b})), -cos(q+({b}))), angle: q }},
+                    third {{ mass: 1e-20*kg, inertia: 1e-20*kg*m^2, at: second.at + 1.3*m*(sin(r+q+({c})), -cos(r+q+({c}))), angle: r+q }},
+                }}
+                gravity none;
+            }}"
+        )
+    };
+    for decimals in ["", "49680958843", "4968095884364915"] {
+        compiled(&chain(decimals), &[], |machine| {
+            assert_eq!(machine.model.coordinates.len(), 3);
+        });
+    }
+    let (codes, text) = told(&chain("496809588436491571234"));
+    assert_eq!(codes, [Code::Internal]);
+    assert!(
+        text.contains("could not be proved") && text.contains("undecided"),
+        "{text}"
+    );
+    assert!(!text.contains("is wrong"), "{text}");
+}
+
 /// The numbers of single contacts are those of the proved functions for all of them: parts of another program are not used.
 #[test]
 fn parts_of_contacts_are_those_of_the_proved_program() {

@@ -143,6 +143,22 @@ fn pi_is_half_a_turn() {
     assert!(!(pi / int(2)).tan().is_finite());
 }
 
+/// Angles that are written with many decimals are those of all theorems: π/4 to 17 decimals, here as 78539816339744831 of 10¹⁷.
+#[test]
+fn angles_may_have_twenty_decimals() {
+    let eighth = ratio(78_539_816_339_744_831, 100_000_000_000_000_000);
+    let small = eighth / int(1000);
+    for angle in [eighth, small] {
+        identity(|x, _, _| {
+            let (sin, cos) = angle.sin_cos();
+            ((x + angle).sin(), x.sin() * cos + x.cos() * sin)
+        });
+        identity(|x, y, _| ((x + angle - (y + angle)).cos(), (x - y).cos()));
+        no_identity(|x, _, _| ((x + angle).sin(), (x - angle).sin()));
+    }
+    no_identity(|x, _, _| ((x + eighth).sin(), (x + small).sin()));
+}
+
 #[test]
 fn three_phases_cancel() {
     let third = int(2) * Residue::pi() / int(3);
