@@ -3,6 +3,7 @@
 //! ```text
 //! open      g > 0,  λ = 0
 //! closed    g = 0,  0 ≤ λₙ ⊥ dγₙ/dt ≥ 0,  −λₜ ∈ μ λₙ Sgn γₜ,  at rest −λₜ ∈ μ₀ λₙ Sgn dγₜ/dt
+//! guide     never open, presses with N = N⁺ − N⁻,  0 ≤ N⁺ ⊥ N⁻ ≥ 0,  −λₜ ∈ μ |N| Sgn γₜ
 //! impact    M (v⁺ − v⁻) = Σ wₙ Λₙ + Σ wₜ Λₜ + Gᵀ Λ_G,  and a law of impact
 //! yielding  g < 0,  λₙ = N(−g, −γₙ) ≥ 0,  friction as above
 //! ```
@@ -39,6 +40,7 @@ mod delassus;
 mod drives;
 mod event;
 mod force;
+mod guides;
 mod impact;
 mod jam;
 mod kinematics;

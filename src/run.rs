@@ -276,6 +276,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         }
         let activity = ContactActivity::new(
             settings.hands_over
+                && system.guides() == 0
                 && matches!(
                     settings.method.kind,
                     MethodKind::RungeKutta | MethodKind::Series

@@ -577,6 +577,39 @@ pub trait System {
         write_each(self, ContactQuantity::Coefficients, (t, q, v), coefficients);
     }
 
+    /// How many of the unilateral contacts are guides: so many, behind all others. By default there are none.
+    ///
+    /// A guide holds its body from both sides, so that it is never open. Its gap, its rate along the normal and the row of that are 0; along
+    /// its tangent it slips, with friction, like any contact. What presses is its normal reaction `N`, of either sign,
+    ///
+    /// ```text
+    /// N = ν + ρ·a + χ·λ + Σ κ F,
+    /// ```
+    ///
+    /// where `λ` are the multipliers of the constraints and `F` the forces along the normals and tangents of all contacts. The accelerations of the system
+    /// are those without friction in guides. A machine whose guides are not beside unilateral contacts has them as [`contacts`](Self::contacts).
+    #[inline(always)]
+    fn guides(&self) -> usize {
+        0
+    }
+
+    /// For each guide its `ρ`, with a number for each coordinate, its `χ`, with one for each constraint, and its `κ`, with two for each
+    /// unilateral contact, along the normal and the tangent. There, the numbers for normals of guides are 0.
+    #[inline(always)]
+    fn guide_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
+
+    /// For each guide its `ν`, in N.
+    #[inline(always)]
+    fn guide_loads(
+        &self,
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _u: &Self::Inputs,
+        _loads: &mut [f64],
+    ) {
+    }
+
     /// For each coordinate, and last for the time, whether any gap depends on it; `None` if [`of_contacts`](Self::of_contacts) and
     /// [`least_gaps`](Self::least_gaps) are not implemented, as by default. If they are, a run evaluates only the contacts that are near: with
     /// few contacts, evaluating all of them costs no more.

@@ -69,7 +69,7 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     let dag = Dag::new();
     let reading = Reading::open(&call.spec)?;
     let program = reading.compile_beside(&dag, files())?.program;
-    if !program.contacts.is_empty() {
+    if !program.contacts.is_empty() || program.sizes().guides > 0 {
         return Err(Failure::run(
             "whether a contact sticks or slides is not a function of q and v alone: a library of a machine with \
              `sliding` cannot be made; use a variant with a constraint in place of each guide, or run it with `lagrangian simulate` or the \

@@ -38,7 +38,7 @@ impl Machine {
     fn linear(&self, py: Python<'_>, inputs: &[f64]) -> PyResult<InterpretedMachine> {
         self.check_parameters(py)?;
         let system = self.system();
-        if system.contacts().len() > 0 {
+        if system.contacts().len() + system.guides() > 0 {
             return Err(PyValueError::new_err(
                 "sticking friction cannot be linearized: a machine with `sliding` has no modes and no linear model",
             ));

@@ -46,6 +46,7 @@ pub fn unilateral_forces<S: System>(
 ) -> Result<Vec<UnilateralForce>, StepError> {
     let At { t, q, v, .. } = at;
     let (mut touching, settled) = settled_at(system, at)?;
+    touching.take_sides(&settled, None);
     touching.set_modes(settled.modes);
     touching.load_layers(system, t, q, v);
     touching.forces_shared(system, at, a, Some(&settled.forces))

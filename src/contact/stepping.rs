@@ -122,10 +122,15 @@ impl UnilateralState {
     /// # Errors
     /// The first contact that yields.
     pub fn check_stepping(&self, t: f64) -> Result<(), StepError> {
-        match (0..self.modes().len()).find(|k| self.is_compliant(*k)) {
+        let is_not_stepped = |k: &usize| self.is_compliant(*k) || self.is_guide(*k);
+        match (0..self.modes().len()).find(is_not_stepped) {
             Some(contact) => Err(StepError::Contact {
                 contact,
-                trouble: ContactTrouble::NotStepped,
+                trouble: if self.is_guide(contact) {
+                    ContactTrouble::GuideNotStepped
+                } else {
+                    ContactTrouble::NotStepped
+                },
                 t,
             }),
             None => Ok(()),

@@ -32,6 +32,9 @@ pub(super) use settled::Settled;
 /// Forces and accelerations below this, relative to the terms that they are the sum of, are rounding.
 const ROUNDING_OF_FORCES: f64 = 1e-11;
 
+/// A reaction that has just changed its sign is known to no better than this, relative to its terms: the instant at which it is 0 has a rounding.
+const SWITCHED: f64 = 1e-6;
+
 /// A slip that began from rest has the direction of the force that began it until it is this many times what it began with: from then on its own
 /// differs from that by no more than a thousandth.
 const BEGUN: f64 = 1e3;
@@ -76,6 +79,9 @@ pub(crate) use crate::contact_law::Margin;
 pub(crate) struct UnilateralState {
     modes: Vec<Mode>,
     has_friction: Vec<bool>,
+    /// How many contacts are guides, the last ones; and to which side each contact presses when it slides, 1 or −1. Only guides press to both.
+    guides: usize,
+    sides: Vec<f64>,
     /// The contacts in the order in which problems are written: see [`order_of_problems`].
     order_of_problems: Arc<[usize]>,
     /// How large each coordinate is at least as part of a gap.
@@ -119,6 +125,8 @@ pub(crate) struct UnilateralState {
 clone_into_memory!(UnilateralState {
     modes,
     has_friction,
+    guides,
+    sides,
     order_of_problems,
     least_sizes,
     with_face,
@@ -240,6 +248,8 @@ impl UnilateralState {
             order_of_problems: order_of_problems(system),
             carrier,
             across,
+            guides: system.guides().min(has_friction.len()),
+            sides: vec![1.0; has_friction.len()],
             has_friction,
             least_sizes: least_sizes(system),
             with_face: contacts_with_face(system),
@@ -409,6 +419,56 @@ impl UnilateralState {
         let here = self.kinematics_of_all(system, (t, q, v));
         let falls = (0..self.modes.len()).map(|k| -here.acceleration(2 * k, &free)[0]);
         falls.fold(0.0, f64::max)
+    }
+
+    /// Whether a contact is a guide.
+    pub fn is_guide(&self, contact: usize) -> bool {
+        contact + self.guides >= self.modes.len()
+    }
+
+    /// Whether any contact is a guide.
+    pub fn has_guides(&self) -> bool {
+        self.guides > 0
+    }
+
+    /// What a contact presses with, of its normal force: a guide presses to either side.
+    pub(super) fn pressing(&self, contact: usize, normal: f64) -> f64 {
+        if self.is_guide(contact) {
+            normal.abs()
+        } else {
+            normal
+        }
+    }
+
+    /// To which side each contact presses.
+    pub fn sides(&self) -> &[f64] {
+        &self.sides
+    }
+
+    /// The guides that slide as they did, and press to other sides than they did.
+    pub fn switched(&self, modes: &[Mode], sides: &[f64]) -> Vec<usize> {
+        let slides = |k: usize| matches!(modes[k], Mode::Slides(_)) && modes[k] == self.modes[k];
+        let is_switched = |k: &usize| slides(*k) && sides[*k] != self.sides[*k];
+        (0..self.modes.len()).filter(is_switched).collect()
+    }
+
+    /// Takes the sides to which guides press from their normal reactions, unless these are rounding. `switched` is one that has come to press to its other side.
+    pub fn take_sides(&mut self, settled: &Settled, switched: Option<usize>) {
+        let first = self.modes.len() - self.guides;
+        let sides = self.sides.iter_mut().enumerate().skip(first);
+        for (k, side) in sides {
+            let ([normal, _], size) = (settled.forces[k], settled.sizes_of_guides[k]);
+            let least = if switched == Some(k) {
+                SWITCHED * size
+            } else {
+                ROUNDING_OF_FORCES * size
+            };
+            if normal.abs() > least {
+                *side = normal.signum();
+            } else if switched == Some(k) {
+                *side = -*side;
+            }
+        }
     }
 
     /// Whether impacts of touching contacts follow each other, instead of being one.

@@ -541,6 +541,7 @@ where
         }
         let cause = match (mode, kind) {
             (_, 3) => Cause::Leaves(k),
+            (_, 0) if self.touching.is_guide(k) => Cause::Switches(k),
             (_, 0) => Cause::Lifts(k),
             (_, 2) => Cause::Turns(k),
             (Mode::Slides(_) | Mode::SlidesAlong(_), _) => Cause::Stops(k),

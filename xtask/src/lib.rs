@@ -212,6 +212,8 @@ fn quantities() -> String {
             ItemKind::Face => "number of a corner on a face",
             ItemKind::Direction => "direction",
             ItemKind::Coefficient => "coefficient",
+            ItemKind::Guide => "guide",
+            ItemKind::OnGuide => "acceleration, multiplier and direction of a contact",
         };
         let numbers = match extent {
             Extent::Number => "one".to_owned(),
@@ -231,6 +233,7 @@ fn quantities() -> String {
             (_, Needs::Contacts) => "with guided contacts",
             (_, Needs::Unilateral) => "with unilateral contacts",
             (_, Needs::Faces) => "with contacts of polygons",
+            (_, Needs::Guides) => "with guides beside unilateral contacts",
             (Role::Projection, _) => "with constraints, in emitted Rust",
             (Role::Derivatives, _) => "with `derivatives`",
             (Role::Adjoint, _) => "in functional mock-up units",

@@ -26,6 +26,11 @@ pub enum ItemKind {
     /// The coefficients of unilateral contacts: for each its restitution along the normal and along the tangent,
     /// its friction and its static friction.
     Coefficient,
+    /// The guides among the unilateral contacts.
+    Guide,
+    /// What the reaction of a guide depends on: the accelerations of the coordinates, the multipliers of the constraints, and the forces along
+    /// the directions of the unilateral contacts.
+    OnGuide,
 }
 
 /// The arrangement of the results of a function, independent of the machine.
@@ -90,6 +95,8 @@ pub enum Needs {
     Unilateral,
     /// Machines with unilateral contacts of polygons.
     Faces,
+    /// Machines with guides beside unilateral contacts.
+    Guides,
     /// Machines whose first-order states store energy.
     Stores,
     /// Machines whose spec requests it.
@@ -105,6 +112,7 @@ impl Needs {
             Needs::Contacts => sizes.contacts > 0,
             Needs::Unilateral => sizes.unilateral > 0,
             Needs::Faces => sizes.faces > 0,
+            Needs::Guides => sizes.guides > 0,
             Needs::Stores => sizes.stores,
         }
     }
@@ -160,6 +168,8 @@ pub struct Sizes {
     pub unilateral: usize,
     /// Unilateral contacts with faces of polygons.
     pub faces: usize,
+    /// Guides among the unilateral contacts, which stand behind the others.
+    pub guides: usize,
     /// Variables that accelerations are differentiated by.
     pub derivatives: usize,
     /// Whether first-order states store energy.
@@ -210,7 +220,9 @@ macro_rules! quantities {
 }
 
 use Extent::{Chosen, Differentials, Each, Number, Responses, Rows, State, Symmetric};
-use ItemKind::{Coefficient, Constraint, Contact, Coordinate, Direction, Face, Unilateral};
+use ItemKind::{
+    Coefficient, Constraint, Contact, Coordinate, Direction, Face, Guide, OnGuide, Unilateral,
+};
 
 quantities! {
     /// Prepared values: what parameters alone decide.
@@ -298,6 +310,15 @@ quantities! {
     /// beyond the ends of it, negative between them, both in m, and how fast the second grows, in m/s.
     ContactFaces => {
         "contact_faces", "", "face*", Each(Face), [Time Coordinates Velocities], Faces, Seldom, "E77"
+    }
+    /// What a unit of each acceleration, of each multiplier, and of a force along each direction of the unilateral contacts adds to the
+    /// normal reactions of guides beside these.
+    GuideMatrix => {
+        "guide_matrix", "", "n*", Rows(Guide, OnGuide), [Time Coordinates], Guides, Seldom, "E81"
+    }
+    /// The normal reactions of guides beside unilateral contacts where all accelerations, multipliers and forces of contacts are 0, in N.
+    GuideLoads => {
+        "guide_loads", "", "nu*", Each(Guide), [Time Coordinates Velocities Inputs], Guides, Seldom, "E81"
     }
     /// Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of
     /// `M da/dx = d(f - M a)/dx` with `a` held.
@@ -405,6 +426,8 @@ impl Sizes {
             ItemKind::Face => 3 * self.faces,
             ItemKind::Direction => 2 * self.unilateral,
             ItemKind::Coefficient => 4 * self.unilateral,
+            ItemKind::Guide => self.guides,
+            ItemKind::OnGuide => self.coordinates + self.constraints + 2 * self.unilateral,
         }
     }
 }
@@ -451,6 +474,7 @@ impl Program {
             reaction_axes: self.reaction_axes,
             unilateral: self.unilateral.len(),
             faces: self.unilateral.iter().filter(|one| one.has_face).count(),
+            guides: self.unilateral.iter().filter(|one| one.is_guide).count(),
             derivatives: self.derivatives.len(),
             stores: self.function(Role::StateEnergy).is_some(),
         }
@@ -507,6 +531,18 @@ impl Program {
                 let part = ["gap", "slip"][index % 2];
                 let one = self.unilateral.get(index / 2);
                 one.map(|one| format!("{}.{part}", one.name))
+            }
+            Guide => {
+                let mut guides = self.unilateral.iter().filter(|one| one.is_guide);
+                guides.nth(index).map(|one| one.name.clone())
+            }
+            OnGuide => {
+                let (n, m) = (self.coordinates.len(), self.constraints.len());
+                return match index {
+                    _ if index < n => self.member((Coordinate, index)),
+                    _ if index < n + m => self.member((Constraint, index - n)),
+                    _ => self.member((Direction, index - n - m)),
+                };
             }
             Coefficient => {
                 let one = self.unilateral.get(index / 4);

@@ -1,0 +1,546 @@
+//! Guides beside unilateral contacts: closed forms, impulses by hand, and the same machines written in other ways.
+
+use std::fmt::Write;
+
+use crate::support::random::SplitMix;
+use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::{
+    ContactEventKind, ContactTrouble, Error, Machine, Method, Simulation, Solution, State, System,
+};
+
+/// The tolerance of a step, relative and absolute.
+const TOLERANCE: f64 = 1e-11;
+
+fn machine(text: &str, settings: &[(&str, f64)]) -> InterpretedMachine {
+    let mut machine = InterpretedMachine::from_text(text)
+        .build()
+        .unwrap_or_else(|error| panic!("{error}\n{text}"));
+    for (parameter, value) in settings {
+        machine.set(parameter, *value).expect("a parameter");
+    }
+    machine
+}
+
+fn run_to(machine: &InterpretedMachine, until: f64) -> Result<Solution<InterpretedMachine>, Error> {
+    Simulation::new(machine)
+        .method(Method::named("dop853").expect("a method"))
+        .tolerance(TOLERANCE)
+        .energy_balance(true)
+        .until(until)
+        .run_interpreted(machine.start())
+}
+
+/// Runs a machine and checks that its energy balance closes, and that no impact creates energy.
+fn run(machine: &InterpretedMachine, until: f64) -> Solution<InterpretedMachine> {
+    let run = run_to(machine, until).unwrap_or_else(|error| panic!("{error}"));
+    is_booked(&run);
+    run
+}
+
+#[track_caller]
+fn is_booked(run: &Solution<InterpretedMachine>) {
+    let balance = run.energy_balance().expect("a balance");
+    let residual = balance.residual();
+    // The tolerance in each step, times the energy exchanged, and rounding.
+    let of_steps = TOLERANCE * run.statistics().steps as f64 * balance.exchanged;
+    assert!(
+        residual.abs() <= balance.explained.max(of_steps),
+        "{residual:e} of {:e}",
+        balance.explained
+    );
+    let booked: f64 = (run.contact_energies().iter())
+        .map(|own| own.impact_loss + own.friction_loss + own.damping_loss)
+        .sum();
+    let lost = balance.dissipated;
+    assert!(
+        (booked - lost).abs() <= 1e-12 * (lost.abs() + balance.exchanged),
+        "each contact {booked}, together {lost}"
+    );
+}
+
+#[track_caller]
+fn assert_near(found: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{found} for {expected}, to {tolerance:e}"
+    );
+}
+
+fn events<'r>(run: &'r Solution<InterpretedMachine>, contact: &str) -> Vec<(ContactEventKind, f64)> {
+    let own = run.contact_events().iter();
+    let own = own.filter(|event| event.contact == contact);
+    own.map(|event| (event.kind, event.state.t)).collect()
+}
+
+fn q(state: &State<Named>, name: &str) -> f64 {
+    state.q.get(name).expect("a coordinate")
+}
+
+fn v(state: &State<Named>, name: &str) -> f64 {
+    state.v.get(name).expect("a coordinate")
+}
+
+/// A block on a rail between two stops.
+const BLOCK_AND_STOP: &str = "machine BlockAndStop in plane {
+    parameters { m: kg = 2, L: m = 1, mu: 1 = 0.2, mu0: 1 = 0.25, e: 1 = 0.7, g: m/s^2 = 9.81, v0: m/s = 3 }
+    coordinates { x: m, der(x): m/s = v0 }
+    frames { seat = ground.shift(x, 0) }
+    bodies { block { mass: m, frame: seat } }
+    gravity (0, -g);
+    sliding { rail { body: block, on: ground, direction: (1, 0), friction: mu, static_friction: mu0 } }
+    contacts { stop { gap: L - x, restitution: e } }
+}";
+
+/// `v₁² = v₀² − 2 μ g L` at the stop, `e v₁` after it, and rest where that is used up.
+#[test]
+fn a_guided_block_is_braked_rebounds_and_stops() {
+    let run = run(&machine(BLOCK_AND_STOP, &[]), 10.0);
+    let (braking, e, v0) = (0.2 * 9.81, 0.7, 3.0_f64);
+    let v1 = (v0 * v0 - 2.0 * braking).sqrt();
+    let hit = (v0 - v1) / braking;
+    let stop = hit + e * v1 / braking;
+    let way = (e * v1).powi(2) / (2.0 * braking);
+    let [(ContactEventKind::Impact, t)] = events(&run, "stop")[..] else {
+        panic!("{:?}", run.contact_events());
+    };
+    assert_near(t, hit, 1e-12);
+    let of_rail = events(&run, "rail");
+    let [(ContactEventKind::Reverses, turned), (ContactEventKind::Sticks, stopped)] = of_rail[..]
+    else {
+        panic!("{of_rail:?}");
+    };
+    assert_eq!(turned, t);
+    assert_near(stopped, stop, 1e-11);
+    assert_near(q(run.end(), "x"), 1.0 - way, 1e-11);
+    assert_near(v(run.end(), "x"), 0.0, 1e-15);
+    // The impact is along the rail, and takes nothing from it.
+    let [stop_energies, rail] = run.contact_energies() else {
+        panic!("two contacts");
+    };
+    assert_near(stop_energies.impact_loss, 0.5 * 2.0 * v1 * v1 * (1.0 - e * e), 1e-11);
+    assert_near(rail.impact_loss, 0.0, 1e-12);
+    let rubbed = 2.0 * braking * (1.0 + way);
+    assert_near(rail.friction_loss, rubbed, 1e-10);
+}
+
+/// A block on a rail that hits a wall which stands obliquely: its normal has the angle `slope` to the normal of the rail.
+const OBLIQUE: &str = "machine Oblique in plane {
+    parameters { m: kg = 2, L: m = 1, mu: 1 = 0.2, e: 1 = 0.7, g: m/s^2 = 9.81, v0: m/s = 3, slope: rad = 2 }
+    coordinates { x: m, der(x): m/s = v0 }
+    frames { seat = ground.shift(x, 0), wall = ground.shift(L, 0).turn(slope) }
+    bodies { block { mass: m, frame: seat } }
+    gravity (0, -g);
+    sliding { rail { body: block, on: ground, direction: (1, 0), friction: mu } }
+    contacts { stop { point: (0, 0), on: block, along: wall, restitution: e LAW } }
+}";
+
+/// The wall presses along `n = (−sin β, cos β)`, the rail takes `N = −Λ cos β` and rubs with `μ |N|`:
+/// `m (v⁺ − v⁻) = −Λ sin β + μ Λ |cos β|` with `v⁺ = −e v⁻`.
+#[test]
+fn an_oblique_wall_loads_the_rail_by_an_impulse_of_either_sign() {
+    let (m, mu, e) = (2.0, 0.2, 0.7);
+    for slope in [1.2_f64, 2.0, 2.6] {
+        let law = OBLIQUE.replace("LAW", "");
+        let run = run(&machine(&law, &[("slope", slope)]), 0.5);
+        let v1 = (9.0 - 2.0 * mu * 9.81_f64).sqrt();
+        let (sin, cos) = slope.sin_cos();
+        let impulse = m * (1.0 + e) * v1 / (sin - mu * cos.abs());
+        let impact = |name: &str| {
+            let mut own = run.contact_events().iter();
+            let own = own.find(|event| event.contact == name && event.impact.is_some());
+            own.and_then(|event| event.impact).expect("an impact")
+        };
+        let (wall, rail) = (impact("stop"), impact("rail"));
+        assert_near(wall.impulse[0], impulse, 1e-11 * impulse);
+        assert_near(rail.impulse[0], -impulse * cos, 1e-11 * impulse);
+        assert_near(rail.impulse[1], mu * impulse * cos.abs(), 1e-11 * impulse);
+        assert_near(rail.slip[0], v1, 1e-11);
+        assert_near(rail.slip[1], -e * v1, 1e-11);
+        assert_eq!(rail.gap_rate, [0.0; 2]);
+        let lost = 0.5 * m * v1 * v1 * (1.0 - e * e);
+        assert_near(wall.loss + rail.loss, lost, 1e-11 * lost);
+        // −½ F (w⁻ + w⁺)
+        let rubbed = -0.5 * mu * impulse * cos.abs() * v1 * (1.0 - e);
+        assert_near(rail.loss, rubbed, 1e-11 * lost);
+    }
+}
+
+/// The same machine with a contact that is never closed, whose gap is this.
+fn with_contact_far_away(text: &str, gap: &str) -> String {
+    let end = text.trim_end().rfind('}').expect("the end of a machine");
+    let mut longer = text[..end].to_owned();
+    write!(longer, "parameters {{ far_away: m = 1000 }} contacts {{ far {{ gap: {gap}, restitution: 0 }} }} }}")
+        .expect("text");
+    longer
+}
+
+fn of_library(name: &str) -> String {
+    let path = format!("{}/../machines/{name}.machine", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).expect("a machine of the library")
+}
+
+const FEWEST: &str = "machine Fewest in plane {
+    parameters { M: kg = 2, m: kg = 1, l: m = 1, mu: 1 = 0.2, g: m/s^2 = 9.81 }
+    coordinates { x: m, phi: rad = 1.2 }
+    frames { cart = ground.shift(x, 0) }
+    bodies { cart { mass: M, frame: cart }, bob { mass: m, at: cart.origin + l*(sin(phi), -cos(phi)) } }
+    gravity (0, -g);
+    sliding { rail { body: cart, on: ground, direction: (1, 0), friction: mu } }
+}";
+
+const HELD: &str = "machine Held in plane {
+    parameters { M: kg = 2, m: kg = 1, l: m = 1, mu: 1 = 0.2, g: m/s^2 = 9.81 }
+    coordinates { x: m, a: m = l*sin(1.2), b: m = -l*cos(1.2) }
+    frames { cart = ground.shift(x, 0) }
+    bodies { cart { mass: M, frame: cart }, bob { mass: m, at: (a, b) } }
+    gravity (0, -g);
+    sliding { rail { body: cart, on: ground, direction: (1, 0), friction: mu } }
+    constraints { rod: norm(bob.at - cart.at) = l }
+}";
+
+const SHAKEN: &str = "machine Shaken in plane {
+    parameters { m: kg = 1, a: m = 0.01, w: rad/s = 40, mu: 1 = 0.3, g: m/s^2 = 9.81 }
+    coordinates { x: m, der(x): m/s = 3 }
+    frames { rail = ground.shift(0, a*cos(w*t)), seat = rail.shift(x, 0) }
+    bodies { block { mass: m, frame: seat } }
+    gravity (0, -g);
+    sliding { rail { body: block, on: rail, direction: (1, 0), friction: mu } }
+}";
+
+/// Guides beside a contact that never closes move as they do alone, where another law of friction decides: with sticking and sliding, reactions that change their
+/// sides, several guides that load each other, constraints, and a base that is driven.
+#[test]
+fn guides_beside_an_open_contact_move_as_they_do_alone() {
+    let cases = [
+        (of_library("block_on_incline"), "far_away - s", &[("rate", 0.05)][..], 8.0),
+        (of_library("stick_slip"), "far_away + x", &[], 30.0),
+        (of_library("wedge_and_block"), "far_away + s", &[], 0.7),
+        (of_library("prisms"), "far_away + dot(slider.at, (0, 1))", &[], 1.0),
+        (FEWEST.to_owned(), "far_away + x", &[], 6.0),
+        (HELD.to_owned(), "far_away + dot(bob.at, (0, 1))", &[], 6.0),
+        (SHAKEN.to_owned(), "far_away + x", &[], 0.4),
+    ];
+    for (text, gap, settings, until) in cases {
+        let alone = machine(&text, settings);
+        let beside = machine(&with_contact_far_away(&text, gap), settings);
+        let (one, other) = (run(&alone, until), run(&beside, until));
+        let guides = alone.prepare().contacts().len();
+        for place in 0..=20 {
+            let t = until * f64::from(place) / 20.0;
+            let [a, b] = [&one, &other].map(|run| run.at(t).expect("in the run"));
+            for (a, b) in a.q.values.iter().zip(&b.q.values) {
+                assert_near(*b, *a, 1e-8);
+            }
+            for (a, b) in a.v.values.iter().zip(&b.v.values) {
+                assert_near(*b, *a, 1e-7);
+            }
+            let a = one.observe(t).expect("in the run").contacts;
+            let b = other.observe(t).expect("in the run").unilateral;
+            for (a, b) in a.iter().zip(&b[b.len() - guides..]) {
+                assert_eq!(a.sticks, b.sticks, "{} at {t}", alone.program().name);
+                assert_near(b.normal, a.normal, 1e-6 * (1.0 + a.normal.abs()));
+                assert_near(b.friction, a.friction, 1e-6 * (1.0 + a.normal.abs()));
+                assert!(b.closed && b.gap == 0.0);
+            }
+        }
+        let [a, b] = [&one, &other].map(|run| run.energy_balance().expect("a balance"));
+        assert_near(b.dissipated, a.dissipated, 1e-8 * (1.0 + a.dissipated));
+        assert_near(b.work, a.work, 1e-8 * (1.0 + a.work.abs()));
+        let times = |run: &Solution<InterpretedMachine>, beside: bool| -> Vec<f64> {
+            if beside {
+                run.contact_events().iter().map(|event| event.state.t).collect()
+            } else {
+                run.events().iter().map(|event| event.state.t).collect()
+            }
+        };
+        let (of_one, of_other) = (times(&one, false), times(&other, true));
+        assert_eq!(of_one.len(), of_other.len(), "{}", alone.program().name);
+        for (a, b) in of_one.iter().zip(&of_other) {
+            assert_near(*b, *a, 1e-8);
+        }
+    }
+}
+
+/// Without friction a guide is none: the machine is the same without it.
+#[test]
+fn a_guide_without_friction_is_no_guide() {
+    let rail = "    sliding { rail { body: block, on: ground, direction: (1, 0), friction: mu } }\n";
+    let with = OBLIQUE.replace("LAW", ", friction: 0.3");
+    assert!(with.contains(rail));
+    let without = with.replace(rail, "");
+    for (mu, is_same) in [(0.0, true), (0.1, false)] {
+        let [one, other] = [&with, &without].map(|text| run(&machine(text, &[("mu", mu)]), 2.0));
+        let apart = (q(one.end(), "x") - q(other.end(), "x")).abs();
+        assert_eq!(apart < 1e-9, is_same, "{mu}: {apart:e}");
+    }
+}
+
+/// A block that is held on its rail by its weight is a block on a floor: with a floor as a contact, which has no restitution, everything is the same, the impact
+/// with a wall that presses it down included, by each law that supports guides.
+#[test]
+fn a_guide_that_presses_to_one_side_is_a_contact() {
+    let on_floor = "machine OnFloor in plane {
+        parameters { m: kg = 2, L: m = 1, mu: 1 = 0.2, e: 1 = 0.7, g: m/s^2 = 9.81, v0: m/s = 3, slope: rad = 2 }
+        coordinates { x: m, der(x): m/s = v0, y: m }
+        frames { seat = ground.shift(x, y), wall = ground.shift(L, 0).turn(slope) }
+        bodies { block { mass: m, frame: seat } }
+        gravity (0, -g);
+        contacts {
+            rail { point: (0, 0), on: block, along: ground, restitution: 0, friction: mu LAW },
+            stop { point: (0, 0), on: block, along: wall, restitution: e LAW },
+        }
+    }";
+    let mut random = SplitMix::new(seed(3));
+    for law in ["", ", law: poisson_glocker"] {
+        for _ in 0..6 {
+            let settings = [
+                ("slope", random.uniform(1.6, 2.4)),
+                ("mu", random.uniform(0.0, 0.4)),
+                ("e", random.uniform(0.0, 1.0)),
+                ("v0", random.uniform(3.0, 5.0)),
+            ];
+            let [one, other] = [OBLIQUE, on_floor].map(|text| {
+                let machine = machine(&text.replace("LAW", law), &settings);
+                run_to(&machine, 3.0).unwrap_or_else(|error| panic!("{error} {settings:?}"))
+            });
+            for place in 0..=12 {
+                let t = f64::from(place) / 4.0;
+                let [a, b] = [&one, &other].map(|run| run.at(t).expect("in the run"));
+                assert_near(q(&a, "x"), q(&b, "x"), 1e-9);
+                assert_near(v(&a, "x"), v(&b, "x"), 1e-9);
+            }
+            let losses = |run: &Solution<InterpretedMachine>, name: &str| {
+                let system = run.system();
+                let mut names = system.unilateral_contacts().map(|contact| contact.name.to_owned());
+                let place = names.position(|own| own == name).expect("a contact");
+                let own = run.contact_energies()[place];
+                [own.impact_loss, own.friction_loss]
+            };
+            for name in ["rail", "stop"] {
+                let [a, b] = [&one, &other].map(|run| losses(run, name));
+                for (a, b) in a.into_iter().zip(b) {
+                    assert_near(a, b, 1e-8);
+                }
+            }
+        }
+    }
+}
+
+fn seed(default: u64) -> u64 {
+    let given = std::env::var("SEED").ok();
+    given.and_then(|seed| seed.parse().ok()).unwrap_or(default)
+}
+
+/// A cart on a rail with a pendulum whose bob hits a wall, which stands at an angle.
+const PENDULUM_AND_WALL: &str = "machine PendulumAndWall in plane {
+    parameters {
+        M: kg = 2, m: kg = 1, l: m = 1, mu: 1 = 0.2, e: 1 = 0.5, g: m/s^2 = 9.81, L: m = 0.5, b: rad = 0.3,
+        phi0: rad = -1.2, v0: m/s = 0,
+    }
+    coordinates { x: m, der(x): m/s = v0, phi: rad = phi0 }
+    frames { cart = ground.shift(x, 0) }
+    bodies { cart { mass: M, frame: cart }, bob { mass: m, at: cart.origin + l*(sin(phi), -cos(phi)) } }
+    gravity (0, -g);
+    sliding { rail { body: cart, on: ground, direction: (1, 0), friction: mu } }
+    contacts { wall { gap: L - dot(bob.at, (cos(b), sin(b))), restitution: e LAW } }
+}";
+
+/// The impulses on the cart and its pendulum by hand: `M (v⁺ − v⁻) = w Λ + τ F` with `γ⁺ = −e γ⁻`, and the vertical momentum of the bob gives N. Of all states of
+/// the rail, which may stick, or slip forwards or backwards, one goes with Coulomb's law.
+#[test]
+fn impulses_on_a_cart_and_its_pendulum_are_those_by_hand() {
+    let (heavy, m, e) = (2.0, 1.0, 0.5);
+    let mut random = SplitMix::new(seed(5));
+    let (mut stuck, mut down) = (0, 0);
+    for _ in 0..40 {
+        let (b, mu) = (random.uniform(-0.9, 0.9), random.uniform(0.1, 1.0));
+        let settings = [("b", b), ("mu", mu), ("v0", random.uniform(-1.0, 1.0))];
+        let text = PENDULUM_AND_WALL.replace("LAW", "");
+        let run = run_to(&machine(&text, &settings), 1.5).expect("it runs");
+        let all = run.contact_events();
+        let Some(wall) = all.iter().find(|event| event.contact == "wall") else {
+            continue;
+        };
+        let rail = (all.iter())
+            .find(|event| event.contact == "rail" && event.state.t == wall.state.t && event.impact.is_some());
+        let Some(rail) = rail.and_then(|event| event.impact) else {
+            panic!("the rail takes part: {all:?}");
+        };
+        let gap = wall.impact.expect("an impact").gap_rate[0];
+        let phi = q(&wall.state, "phi");
+        let (sin, cos) = phi.sin_cos();
+        // γ = −(cos b) ẋ − (cos φ cos b + sin φ sin b) φ̇, with a length of 1
+        let w = [-b.cos(), -(phi - b).cos()];
+        let before = [rail.slip[0], (gap - w[0] * rail.slip[0]) / w[1]];
+        let matrix = [[heavy + m, m * cos], [m * cos, m]];
+        let det = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
+        let solve = |f: [f64; 2]| {
+            [
+                (matrix[1][1] * f[0] - matrix[0][1] * f[1]) / det,
+                (matrix[0][0] * f[1] - matrix[1][0] * f[0]) / det,
+            ]
+        };
+        let (by_wall, by_rail) = (solve(w), solve([1.0, 0.0]));
+        let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+        // N = m sin φ Δφ̇ + Λ sin b, as a form of Λ and F
+        let n = [m * sin * by_wall[1] + b.sin(), m * sin * by_rail[1]];
+        let needed = -(1.0 + e) * gap;
+        let mut found = Vec::new();
+        // It sticks: Δẋ = −ẋ.
+        let (g, h) = ([dot(w, by_wall), dot(w, by_rail)], [by_wall[0], by_rail[0]]);
+        let d = g[0] * h[1] - g[1] * h[0];
+        let sticking = [
+            (needed * h[1] + before[0] * g[1]) / d,
+            (-before[0] * g[0] - needed * h[0]) / d,
+        ];
+        if sticking[1].abs() <= mu * dot(n, sticking).abs() && sticking[0] >= 0.0 {
+            found.push(sticking);
+        }
+        for sign in [-1.0, 1.0] {
+            for side in [-1.0, 1.0] {
+                // F = −μ sign side N, and N = n₀ Λ + n₁ F.
+                let by = -mu * sign * side;
+                let share = by * n[0] / (1.0 - by * n[1]);
+                let impulse = needed / (g[0] + share * g[1]);
+                let both = [impulse, share * impulse];
+                let after = before[0] + dot(h, both);
+                if impulse >= 0.0 && side * dot(n, both) >= 0.0 && sign * after > 0.0 {
+                    found.push(both);
+                }
+            }
+        }
+        let own = [wall.impact.expect("an impact").impulse[0], rail.impulse[1]];
+        let is_own = |one: &[f64; 2]| (0..2).all(|i| (one[i] - own[i]).abs() <= 1e-9 * own[0]);
+        assert!(found.iter().any(is_own), "{own:?} is none of {found:?}");
+        assert_near(rail.impulse[0], dot(n, own), 1e-9 * own[0]);
+        stuck += usize::from(rail.slip[1] == 0.0 || rail.slip[1].abs() < 1e-12);
+        down += usize::from(rail.impulse[0] < 0.0);
+    }
+    assert!(stuck > 3 && down > 3, "{stuck} stick, {down} are pressed from above");
+}
+
+/// With one restitution, or none, no impact and no friction creates energy, and what is lost is booked, whatever the machine.
+#[test]
+fn random_carts_with_pendulums_never_gain_energy() {
+    let mut random = SplitMix::new(seed(7));
+    let mut impacts = 0;
+    for case in 0..24 {
+        let law = [", law: poisson_glocker", "", ", friction: 0.3, law: poisson_glocker"][case % 3];
+        let text = PENDULUM_AND_WALL.replace("LAW", law);
+        let e = if case % 3 == 1 { 0.0 } else { random.uniform(0.0, 1.0) };
+        let settings = [
+            ("M", random.uniform(0.5, 3.0)),
+            ("b", random.uniform(-0.9, 0.9)),
+            ("mu", random.uniform(0.0, 0.7)),
+            ("phi0", random.uniform(-1.5, 0.2)),
+            ("v0", random.uniform(-1.0, 2.0)),
+            ("e", e),
+        ];
+        let run = match run_to(&machine(&text, &settings), 3.0) {
+            Ok(run) => run,
+            Err(error) => panic!("{error} {law} {settings:?}"),
+        };
+        is_booked(&run);
+        assert_eq!(run.warnings(), [], "{law} {settings:?}");
+        let mut losses = std::collections::BTreeMap::new();
+        for event in run.contact_events() {
+            if let Some(impact) = event.impact {
+                *losses.entry(event.state.t.to_bits()).or_insert(0.0) += impact.loss;
+                impacts += 1;
+            }
+        }
+        let exchanged = run.energy_balance().expect("a balance").exchanged;
+        for (t, loss) in losses {
+            assert!(loss >= -1e-12 * exchanged, "{loss:e} at {} {settings:?}", f64::from_bits(t));
+        }
+        for own in run.contact_energies() {
+            assert!(own.friction_loss >= -1e-12 * exchanged);
+        }
+    }
+    assert!(impacts > 20, "{impacts}");
+}
+
+/// A block on a rail that is pressed up and down by a force. As a block between a floor and a ceiling it has a little play, and tends to the guide as that does.
+#[test]
+fn a_guide_is_a_pair_of_opposite_contacts_without_play() {
+    let head = "parameters { m: kg = 1, mu: 1 = 0.2, P: N = 30, w: rad/s = 9, g: m/s^2 = 9.81, L: m = 1, e: 1 = 0.6, play: m = 1e-6 }";
+    let force = "forces { up { on: block.at, value: (0, P*sin(w*t)) } }";
+    let stop = "restitution: e";
+    let guide = machine(
+        &format!(
+            "machine Guided in plane {{ {head}
+                coordinates {{ x: m, der(x): m/s = 3 }}
+                frames {{ seat = ground.shift(x, 0) }}
+                bodies {{ block {{ mass: m, frame: seat }} }}
+                gravity (0, -g);
+                {force}
+                sliding {{ rail {{ body: block, on: ground, direction: (1, 0), friction: mu }} }}
+                contacts {{ stop {{ gap: L - x, {stop} }} }}
+            }}"
+        ),
+        &[],
+    );
+    let run_of = |play: f64| {
+        let with_play = machine(
+            &format!(
+                "machine Between in plane {{ {head}
+                    coordinates {{ x: m, der(x): m/s = 3, y: m }}
+                    frames {{ seat = ground.shift(x, y) }}
+                    bodies {{ block {{ mass: m, frame: seat }} }}
+                    gravity (0, -g);
+                    {force}
+                    contacts {{
+                        below {{ gap: y, slip: der(x), restitution: 0, friction: mu }},
+                        above {{ gap: play - y, slip: der(x), restitution: 0, friction: mu }},
+                        stop {{ gap: L - x, {stop} }},
+                    }}
+                }}"
+            ),
+            &[("play", play)],
+        );
+        run_to(&with_play, 1.0).expect("it runs")
+    };
+    let exact = run(&guide, 1.0);
+    let error = |play: f64| {
+        let run = run_of(play);
+        (q(exact.end(), "x") - q(run.end(), "x")).abs()
+    };
+    // Each way across takes a time of (6 play/j)^⅓ with a jerk j, in which nothing rubs.
+    let errors = [1e-6, 1e-9, 1e-12].map(error);
+    assert!(errors[0] < 0.02, "{errors:?}");
+    for pair in errors.windows(2) {
+        assert!(pair[1] < 0.2 * pair[0], "{errors:?}");
+    }
+}
+
+/// Impacts in sequence, with the guide in each.
+#[test]
+fn impacts_in_sequence_load_the_guide_each() {
+    let text = PENDULUM_AND_WALL.replace("LAW", ", order: sequence");
+    let one = run(&machine(&text, &[]), 1.0);
+    let other = run(&machine(&PENDULUM_AND_WALL.replace("LAW", ""), &[]), 1.0);
+    assert!(!one.contact_events().is_empty());
+    assert_near(q(one.end(), "x"), q(other.end(), "x"), 1e-10);
+}
+
+/// What guides beside contacts do not support is refused, with what to do.
+#[test]
+fn what_guides_beside_contacts_do_not_support_is_refused() {
+    let machine = machine(BLOCK_AND_STOP, &[]);
+    let stepped = Simulation::new(&machine)
+        .method(Method::named("moreau").expect("a method"))
+        .longest_step(1e-3)
+        .until(1.0)
+        .run(machine.start());
+    let Err(Error::Contact { contact, trouble: ContactTrouble::GuideNotStepped, .. }) = stepped else {
+        panic!("{:?}", stepped.map(|run| run.end().t));
+    };
+    assert_eq!(contact, "rail");
+    for (law, word) in [("stronge", "`law: stronge` does not support `sliding`"), ("poisson", "Routh")] {
+        let text = BLOCK_AND_STOP.replace("restitution: e", &format!("restitution: e, law: {law}"));
+        let Err(error) = InterpretedMachine::from_text(text).build() else {
+            panic!("{law} is refused");
+        };
+        assert!(error.to_string().contains(word), "{error}");
+    }
+}
