@@ -107,7 +107,9 @@ impl Guides {
             for (k, share) in shares.iter().enumerate() {
                 z.iter_mut().zip(of(k)).for_each(|(z, g)| *z += share * g);
             }
-            let most = by_multipliers.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let most = by_multipliers
+                .iter()
+                .fold(0.0_f64, |most, x| most.max(x.abs()));
             let is_met = |k: usize| (dot(of(k), &z) - by_multipliers[k]).abs() <= DETERMINED * most;
             if !(0..m).all(is_met) {
                 return Err(Singular {
@@ -202,7 +204,11 @@ impl Guides {
         let [sum, size] = terms.fold([0.0; 2], |[sum, size], term: f64| {
             [sum + term, size + term.abs()]
         });
-        if sum.abs() > DETERMINED * size { sum } else { 0.0 }
+        if sum.abs() > DETERMINED * size {
+            sum
+        } else {
+            0.0
+        }
     }
 
     /// The reaction of a guide with these accelerations and these forces of all contacts, along normals and tangents, and the size of its terms, in N.

@@ -4,8 +4,8 @@ use std::vec;
 use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix, write_matrix};
-use super::guides::Guides;
 use super::drives::{ActingContact, Drives, DrivesMemory};
+use super::guides::Guides;
 use super::kinematics::{ContactKinematics, ROUNDING};
 use super::problem::{Answer, ContactUnknowns};
 use super::routh::{self, Expansion, SingleImpact};

@@ -32,9 +32,6 @@ pub(super) use settled::Settled;
 /// Forces and accelerations below this, relative to the terms that they are the sum of, are rounding.
 const ROUNDING_OF_FORCES: f64 = 1e-11;
 
-/// A reaction that has just changed its sign is known to no better than this, relative to its terms: the instant at which it is 0 has a rounding.
-const SWITCHED: f64 = 1e-6;
-
 /// A slip that began from rest has the direction of the force that began it until it is this many times what it began with: from then on its own
 /// differs from that by no more than a thousandth.
 const BEGUN: f64 = 1e3;
@@ -452,21 +449,16 @@ impl UnilateralState {
         (0..self.modes.len()).filter(is_switched).collect()
     }
 
-    /// Takes the sides to which guides press from their normal reactions, unless these are rounding. `switched` is one that has come to press to its other side.
+    /// Takes the sides to which guides press from their normal reactions, unless these are rounding. A reaction that has just changed its sign is 0, and its guide
+    /// presses to the other side from now on: one that has `switched`.
     pub fn take_sides(&mut self, settled: &Settled, switched: Option<usize>) {
         let first = self.modes.len() - self.guides;
-        let sides = self.sides.iter_mut().enumerate().skip(first);
-        for (k, side) in sides {
+        for (k, side) in self.sides.iter_mut().enumerate().skip(first) {
             let ([normal, _], size) = (settled.forces[k], settled.sizes_of_guides[k]);
-            let least = if switched == Some(k) {
-                SWITCHED * size
-            } else {
-                ROUNDING_OF_FORCES * size
-            };
-            if normal.abs() > least {
-                *side = normal.signum();
-            } else if switched == Some(k) {
+            if switched == Some(k) {
                 *side = -*side;
+            } else if normal.abs() > ROUNDING_OF_FORCES * size {
+                *side = normal.signum();
             }
         }
     }

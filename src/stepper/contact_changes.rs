@@ -506,7 +506,8 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         touching.take_sides(
             &settled,
             match cause {
-                Cause::Switches(k) => Some(k),
+                // Impacts change reactions by more than what changes their signs.
+                Cause::Switches(k) if changes.impacts.is_empty() => Some(k),
                 _ => None,
             },
         );

@@ -138,7 +138,10 @@ impl UnilateralState {
             },
         };
         let [presses, loads] = if self.is_guide(k) {
-            [self.margin_of_side(here, (normal, rounding), k), Margin::ENDLESS]
+            [
+                self.margin_of_side(here, (normal, rounding), k),
+                Margin::ENDLESS,
+            ]
         } else if pressed == k {
             self.margins_of_compliance(here, k).unwrap_or([
                 Margin {

@@ -268,7 +268,8 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
         let images = &self.images[..width];
         write_matrix(images, &mut self.g, &mut self.nonzero_entries);
         if touching.has_guides() {
-            self.guides.evaluate(system, (t, q), |direction| here.row(direction))?;
+            self.guides
+                .evaluate(system, (t, q), |direction| here.row(direction))?;
             self.guides.evaluate_loads(system, at);
             (self.guides).complete(&self.inertia, &self.closed, images, &mut self.g);
         }
@@ -389,7 +390,9 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
             }
             let own = self.entry(row, row);
             let (of_rates, [value, terms]) = if touching.is_guide(k) && part == 0 {
-                let reaction = self.guides.reaction(k, &self.reaction.a, &self.reaction.forces);
+                let reaction = self
+                    .guides
+                    .reaction(k, &self.reaction.a, &self.reaction.forces);
                 (0.0, reaction.map(|of| own * of))
             } else {
                 let of_rates = here.acceleration_rounding(k, touching.greatest_rate());

@@ -91,12 +91,11 @@ impl UnilateralState {
             closed[*k] && !known_modes.contains(&(pressing, Mode::Open))
         };
         let asked: Vec<usize> = self.in_order().filter(is_asked).collect();
-        let mut forces = vec![[0.0; 2]; closed.len()];
         if asked.is_empty() {
             return Ok(Settled {
                 modes: vec![Mode::Open; closed.len()],
-                sizes_of_guides: vec![0.0; forces.len()],
-                forces,
+                forces: vec![[0.0; 2]; closed.len()],
+                sizes_of_guides: vec![0.0; closed.len()],
                 shared_otherwise: Vec::new(),
                 at_limit: Vec::new(),
             });
@@ -119,16 +118,7 @@ impl UnilateralState {
             if settling.take_modes(&solved) {
                 continue;
             }
-            let parts = solved.known.iter().zip(&solved.found);
-            let mut sizes_of_guides = vec![0.0; closed.len()];
-            for (place, (known, found)) in parts.enumerate() {
-                let k = settling.asked[place];
-                forces[k] = [known[0] + found[0], known[1] + found[1]];
-                if self.is_guide(k) {
-                    let (reaction, size) = settling.reaction(&solved, place);
-                    (forces[k][0], sizes_of_guides[k]) = (reaction, size);
-                }
-            }
+            let (forces, sizes_of_guides) = settling.forces(&solved);
             let shared_otherwise = solved.shared_otherwise.iter();
             let shared_otherwise = shared_otherwise.map(|place| settling.asked[*place]);
             let shared_otherwise = shared_otherwise.collect();
@@ -389,7 +379,9 @@ impl<'a> Settling<'a> {
             if direction.is_multiple_of(2) && touching.is_guide(direction / 2) {
                 // What presses the guide, in the unit of its row.
                 let unit = g[row * directions.len() + row];
-                return guides.reaction(direction / 2, free, &[]).map(|of| unit * of);
+                return guides
+                    .reaction(direction / 2, free, &[])
+                    .map(|of| unit * of);
             }
             here.acceleration(direction, free)
         });
@@ -595,6 +587,21 @@ impl<'a> Settling<'a> {
         let ([by, size], [_, of_known]) = (of(&solved.found), of(&solved.known));
         let size = self.accelerations[row][1] + size + of_known;
         (solved.b[row] + by, ROUNDING_OF_FORCES * size)
+    }
+
+    /// The forces of all contacts, and of each guide the size of the terms of its reaction.
+    fn forces(&self, solved: &SettlingForces) -> (Vec<[f64; 2]>, Vec<f64>) {
+        let mut forces = vec![[0.0; 2]; self.modes.len()];
+        let mut sizes_of_guides = vec![0.0; self.modes.len()];
+        let parts = solved.known.iter().zip(&solved.found);
+        for (place, (known, found)) in parts.enumerate() {
+            let k = self.asked[place];
+            forces[k] = [known[0] + found[0], known[1] + found[1]];
+            if self.touching.is_guide(k) {
+                (forces[k][0], sizes_of_guides[k]) = self.reaction(solved, place);
+            }
+        }
+        (forces, sizes_of_guides)
     }
 
     /// The reaction of a guide with these forces, and the size of its terms, in N.

@@ -70,7 +70,8 @@ impl UnilateralState {
             return Ok(None);
         };
         let may_turn = |&(place, k): &(usize, &usize)| {
-            self.modes[*k] == Mode::Sticks && equations.of_reactions.iter().any(|by| by[place] != 0.0)
+            self.modes[*k] == Mode::Sticks
+                && equations.of_reactions.iter().any(|by| by[place] != 0.0)
         };
         let turning = equations.closed.iter().enumerate().filter(may_turn);
         let turning: Vec<usize> = turning.take(MOST_SIDES).map(|(_, k)| *k).collect();
@@ -89,7 +90,8 @@ impl UnilateralState {
             }
             let other = self.shared_load_with(here, reaction, (equations, &sides), t);
             let margin = |load: &Result<SharedLoad, StepError>| {
-                load.as_ref().map_or(f64::NEG_INFINITY, SharedLoad::least_margin)
+                load.as_ref()
+                    .map_or(f64::NEG_INFINITY, SharedLoad::least_margin)
             };
             if margin(&other) > margin(&best) {
                 best = other;

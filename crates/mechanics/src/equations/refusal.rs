@@ -93,10 +93,15 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
 }
 
 /// Refuses what guides beside unilateral contacts do not support.
-fn refuse_guides_beside_contacts(model: &Model<'_>, first: &Sliding<'_>, refusals: &mut Refusals<'_>) {
+fn refuse_guides_beside_contacts(
+    model: &Model<'_>,
+    first: &Sliding<'_>,
+    refusals: &mut Refusals<'_>,
+) {
     if model.space == Space::Space {
         let message = "in space `sliding` of a machine with `contacts` cannot be derived yet";
-        let help = "in the plane it can be derived; in space without `sliding`, or without `contacts`";
+        let help =
+            "in the plane it can be derived; in space without `sliding`, or without `contacts`";
         refusals.refuse(Code::NotSupported, first.span, message, help);
     }
     for contact in &model.contacts {
@@ -108,7 +113,8 @@ fn refuse_guides_beside_contacts(model: &Model<'_>, first: &Sliding<'_>, refusal
         }
         if contact.response.painleve() == Painleve::Impact {
             let message = "`painleve: impact` does not support `sliding`";
-            let help = "leave it out: the run then ends with an error where friction admits no motion";
+            let help =
+                "leave it out: the run then ends with an error where friction admits no motion";
             refusals.refuse(Code::NotSupported, contact.span, message, help);
         }
     }

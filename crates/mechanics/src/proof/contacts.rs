@@ -19,7 +19,11 @@ impl<R: Number> Prover<'_, '_, R> {
     ) -> Result<Vec<R>, Verdict> {
         // Beside unilateral contacts guides are among these.
         let are_contacts = !literal.unilateral.is_empty();
-        let count = if are_contacts { 0 } else { literal.sliding.len() };
+        let count = if are_contacts {
+            0
+        } else {
+            literal.sliding.len()
+        };
         let n = w.len();
         if count != self.parts.program.contacts.len() {
             return Err(self.disagreement_at(Role::Slips, 0));
@@ -63,7 +67,13 @@ impl<R: Number> Prover<'_, '_, R> {
         literal: &Literal<R>,
     ) -> Result<(), Verdict> {
         let is_guide = |one: &&Unilateral| one.is_guide;
-        let guides = self.parts.program.unilateral.iter().filter(is_guide).count();
+        let guides = self
+            .parts
+            .program
+            .unilateral
+            .iter()
+            .filter(is_guide)
+            .count();
         let (n, count) = (w.len(), literal.unilateral.len() + guides);
         if count != self.parts.program.unilateral.len() {
             return Err(self.disagreement_at(Role::Gaps, 0));
@@ -164,7 +174,12 @@ impl<R: Number> Prover<'_, '_, R> {
             let expected = [R::ZERO, R::ZERO, friction, static_friction];
             for (i, expected) in expected.into_iter().enumerate() {
                 let i = 4 * k + i;
-                self.compare(Role::ContactCoefficients, i, numbers.coefficients[i], expected)?;
+                self.compare(
+                    Role::ContactCoefficients,
+                    i,
+                    numbers.coefficients[i],
+                    expected,
+                )?;
             }
             signs.push(sign);
         }

@@ -2,8 +2,8 @@
 
 use lagrangian_spec::diagnostic::{Code, Diagnostic};
 use lagrangian_spec::identity;
-use lagrangian_spec::model::{Contact, ContactGeometry, Model};
 use lagrangian_spec::model::element::{Contribution, Element, Energy, Load};
+use lagrangian_spec::model::{Contact, ContactGeometry, Model};
 use lagrangian_spec::source::Span;
 use lagrangian_symbolic::{Expr, Node, Symbol};
 
@@ -122,11 +122,7 @@ impl<'d> CoordinateTests<'_, '_, 'd> {
     }
 
     /// Tests a contact that is given by expressions: its normal force acts like that of a stretch, and its friction like one between rates.
-    fn test_contact(
-        &self,
-        contact: &Contact<'d>,
-        test: &mut impl FnMut(&dyn Fn() -> TestResult),
-    ) {
+    fn test_contact(&self, contact: &Contact<'d>, test: &mut impl FnMut(&dyn Fn() -> TestResult)) {
         let ContactGeometry::Expressions { gap, slip, .. } = &contact.geometry else {
             return;
         };
