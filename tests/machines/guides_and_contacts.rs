@@ -69,10 +69,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64) {
     );
 }
 
-fn events<'r>(
-    run: &'r Solution<InterpretedMachine>,
-    contact: &str,
-) -> Vec<(ContactEventKind, f64)> {
+fn events(run: &Solution<InterpretedMachine>, contact: &str) -> Vec<(ContactEventKind, f64)> {
     let own = run.contact_events().iter();
     let own = own.filter(|event| event.contact == contact);
     own.map(|event| (event.kind, event.state.t)).collect()
@@ -496,11 +493,13 @@ fn random_carts_with_pendulums_never_gain_energy() {
         } else {
             random.uniform(0.0, 1.0)
         };
+        let b = random.uniform(-0.9, 0.9);
         let settings = [
             ("M", random.uniform(0.5, 3.0)),
-            ("b", random.uniform(-0.9, 0.9)),
+            ("b", b),
             ("mu", random.uniform(0.0, 0.7)),
-            ("phi0", random.uniform(-1.5, 0.2)),
+            // On its side of the wall: sin(φ − b) < 1/2.
+            ("phi0", random.uniform(-1.5, 0.2).min(b + 0.4)),
             ("v0", random.uniform(-1.0, 2.0)),
             ("e", e),
         ];
