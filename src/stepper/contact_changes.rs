@@ -513,8 +513,11 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         );
         let mut modes = settled.modes;
         (changes.told.shared_otherwise).extend(settled.shared_otherwise);
-        if let Cause::Lifts(_) = cause {
-            // Contacts that lift at the same instant, by symmetry, would otherwise close each other again and again.
+        if matches!(cause, Cause::Lifts(_)) && changes.impacts.is_empty() {
+            touching.keep_slipping(&mut modes, (&changes.before, &settled.at_limit));
+        }
+        if let Cause::Lifts(_) | Cause::Breaks(..) = cause {
+            // Contacts that lift at the same instant, by symmetry or because what held them slips, would otherwise close each other again and again.
             let was_open = |k: usize| changes.before[k] == Mode::Open && !touching.is_compliant(k);
             modes = touching.without_unpressed(system, at, modes, was_open)?;
         }

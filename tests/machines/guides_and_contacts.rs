@@ -636,6 +636,105 @@ fn a_block_at_rest_at_an_oblique_wall_is_held_as_long_as_any_forces_permit() {
     }
 }
 
+/// A cart with a pendulum, thrown against a stop.
+const PULLED_BY_ITS_PENDULUM: &str = "machine Pulled in plane {
+    parameters { M: kg = 1.85, m: kg = 0.57, l: m = 0.98, d: m = 0.7, mu: 1 = 0.1, g: m/s^2 = 9.81 }
+    coordinates { COORDINATES, a: rad = -0.758, der(x): m/s = -2.44 }
+    frames { seat = ground.shift(SEAT) }
+    bodies { cart { mass: M, frame: seat }, bob { mass: m, at: cart.at + l*(sin(a), -cos(a)) } }
+    gravity (0, -g);
+    SUPPORT
+    contacts { back { gap: x + d, law: poisson_glocker, restitution: 0 } }
+}";
+
+/// The events of a run, those of each instant together.
+fn instants(run: &Solution<InterpretedMachine>) -> Vec<(f64, Vec<String>)> {
+    let mut instants: Vec<(f64, Vec<String>)> = Vec::new();
+    for event in run.contact_events() {
+        let told = format!("{} {:?}", event.contact, event.kind);
+        match instants.last_mut() {
+            Some((t, all)) if *t == event.state.t => all.push(told),
+            _ => instants.push((event.state.t, vec![told])),
+        }
+    }
+    for (_, all) in &mut instants {
+        all.sort();
+    }
+    instants
+}
+
+/// A cart stands at a stop, on a guide or a floor with friction that shares its load with the stop. Its pendulum pulls it off: while it is held, the rod pulls with
+/// `T = m (g cos φ + l φ̇²)`, and both let go at one instant, where `T sin φ = μ (M g + T cos φ)`. Which of the two is seen to do so first is for rounding to say, and
+/// must not matter.
+#[test]
+fn a_stop_and_friction_that_share_a_load_let_go_together() {
+    let on_rail = PULLED_BY_ITS_PENDULUM
+        .replace("COORDINATES", "x: m")
+        .replace("SEAT", "x, 0")
+        .replace(
+            "SUPPORT",
+            "sliding { rail { body: cart, on: ground, direction: (1, 0), friction: mu } }",
+        );
+    let on_floor = PULLED_BY_ITS_PENDULUM
+        .replace("COORDINATES", "x: m, y: m")
+        .replace("SEAT", "x, y")
+        .replace(
+            "SUPPORT",
+            "contacts { rail { gap: y, slip: der(x), friction: mu, law: poisson_glocker, restitution: 0 } }",
+        );
+    let run_with = |machine: &InterpretedMachine, method: &str, tolerance: f64| {
+        Simulation::new(machine)
+            .method(Method::named(method).expect("a method"))
+            .tolerance(tolerance)
+            .energy_balance(true)
+            .until(2.0)
+            .run_interpreted(machine.start())
+            .unwrap_or_else(|error| panic!("{method} at {tolerance:e}: {error}"))
+    };
+    // The tolerance in each step, which the pendulum and what follows the times of events enlarge; and the instant at which a shared load lets go is looked for a share of
+    // 1e-9 of a step later, with steps of up to some times their mean.
+    let error = |run: &Solution<InterpretedMachine>, tolerance: f64| {
+        let steps = run.statistics().steps as f64;
+        10.0 * (tolerance * steps + 1e-9 / steps)
+    };
+    let machines = [on_rail, on_floor].map(|text| machine(&text, &[]));
+    let best = run_with(&machines[0], "dop853", 1e-13);
+    let (of_best, error_of_best) = (instants(&best), error(&best, 1e-13));
+    for machine in &machines {
+        for method in ["dop853", "dopri5", "radau9"] {
+            for tolerance in [1e-9, 1e-10, 1e-11, 1e-12, 1e-13] {
+                let run = run_with(machine, method, tolerance);
+                let bound = error(&run, tolerance) + error_of_best;
+                let found = instants(&run);
+                let told = |all: &[(f64, Vec<String>)]| -> Vec<Vec<String>> {
+                    all.iter().map(|(_, told)| told.clone()).collect()
+                };
+                assert_eq!(told(&found), told(&of_best), "{method} at {tolerance:e}");
+                let [.., (_, let_go), (_, stopped)] = &found[..] else {
+                    panic!("{found:?}");
+                };
+                assert_eq!(let_go[..], ["back Lifts", "rail Slips"]);
+                assert_eq!(stopped[..], ["rail Sticks"]);
+                for ((t, _), (of_best, _)) in found.iter().zip(&of_best) {
+                    assert_near(*t, *of_best, bound);
+                }
+                for name in ["x", "a"] {
+                    assert_near(q(run.end(), name), q(best.end(), name), bound);
+                    assert_near(v(run.end(), name), v(best.end(), name), bound);
+                }
+                let mut all = run.contact_events().iter();
+                let lifts = all.find(|event| event.kind == ContactEventKind::Lifts);
+                let state = &lifts.expect("it lifts").state;
+                let (sin, cos) = q(state, "a").sin_cos();
+                let pull = 0.57 * (9.81 * cos + 0.98 * v(state, "a").powi(2));
+                let limit = 0.1 * (1.85 * 9.81 + pull * cos);
+                // The pull grows by 5 N in a second.
+                assert_near(pull * sin, limit, 5.0 * bound);
+            }
+        }
+    }
+}
+
 /// A slide on an arm that turns on a carriage: two guides, of which one carries the other, and five contacts.
 const LINKAGE: &str = "machine Linkage in plane {
     parameters { m: kg = 2, mu: 1 = 0.3, g: m/s^2 = 9.81, v0: m/s = 2, h: m = 0.1, e: 1 = 0.3, phi0: rad = 0.3, s0: m = 0.5 }

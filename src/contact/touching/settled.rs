@@ -351,6 +351,25 @@ impl UnilateralState {
         Ok(modes)
     }
 
+    /// Lets contacts slip on that did so `before`, are at rest, and have their friction used up `at_limit` against this slip: they have begun to slip at this instant, and
+    /// their accelerations cannot tell yet whether they stick. If they stuck, they would have to begin to slip once more.
+    pub fn keep_slipping(
+        &self,
+        modes: &mut [Mode],
+        (before, at_limit): (&[Mode], &[(usize, Mode)]),
+    ) {
+        for &(k, slips) in at_limit {
+            let (own, next) = (before[k].direction(), slips.direction());
+            if own[0] * next[0] + own[1] * next[1] <= 0.0 {
+                continue;
+            }
+            modes[k] = slips;
+            if let Some(second) = self.second(k) {
+                modes[second] = slips;
+            }
+        }
+    }
+
     /// Opens what leans on an open contact.
     fn copy_openings_from_carriers(&self, modes: &mut [Mode]) {
         for (k, on) in self.carrier.iter().enumerate() {
