@@ -38,6 +38,10 @@ impl<V: Vector> Constraints<V> {
         // How many passes in succession have chosen all rows and moved nothing.
         let mut at_rest = 0;
         for independent in PASSES {
+            if at_rest == 1 && self.reorders_all_rows(system, (place.t, place.q[0]), independent) {
+                at_rest = 2;
+                break;
+            }
             tried = self.pass(system, place, Rank::Revealed(independent), at_rest > 0);
             if tried == Ok(false) && independent == INDEPENDENT {
                 break;
@@ -48,11 +52,6 @@ impl<V: Vector> Constraints<V> {
             } else {
                 0
             };
-            // The next one would choose the same rows: a lower bound admits no further ones, and of rows that were all chosen before, none
-            // is preferred.
-            if at_rest == 2 {
-                break;
-            }
         }
         tried?;
         // The passes together may have moved farther than a single move with the rows that they found.
@@ -78,6 +77,28 @@ impl<V: Vector> Constraints<V> {
         }
         self.accept(place.q[0], place.v[0]);
         self.find_branch(system, (place.t, place.q[0], place.v[0]))
+    }
+
+    /// Chooses rows once more in the pose in which a pass has chosen all of them and moved nothing: by now it is known how they bend, so that their order may
+    /// become another one. A pass with the same rows would move nothing again; and no further choice would change them, since a lower bound admits no further
+    /// rows, and of rows that were all chosen before, none is preferred. Returns whether all rows are chosen; otherwise nothing changes.
+    fn reorders_all_rows<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        at: (f64, &V),
+        independent: f64,
+    ) -> bool {
+        let by = (&self.scales, None);
+        let choice = self
+            .choice
+            .choose(system, at, Rank::Revealed(independent), by);
+        match choice {
+            Ok(choice) if choice.rank == system.constraints().len() => {
+                self.choice = choice;
+                true
+            }
+            _ => false,
+        }
     }
 
     /// Checks whether rows are dependent in the pose at the start that are independent next to it. Then
