@@ -156,6 +156,13 @@ impl Trouble<'_> {
 /// # Errors
 /// If the spec or the call is invalid, or the run fails. The part of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
+    let is_chosen = call.method == AUTO && call.precision == call::Precision::F64;
+    if call.one_of.is_some() && (!is_chosen || call.validated) {
+        return Err(Failure::Call(
+            "--one-of: only with --method auto, which chooses when to derive a series; other methods do not depend on the number of runs"
+                .into(),
+        ));
+    }
     if call.precision == call::Precision::Dd {
         return precise::in_double_doubles(call);
     }
@@ -396,7 +403,7 @@ impl<'d> Prepared<'d> {
             .stop_if(move |_| interrupt.was_pressed());
         let simulation = reading::keep(simulation, &call.keep);
         if call.method == AUTO {
-            simulation.automatic()
+            simulation.automatic().one_of(call.one_of.unwrap_or(1))
         } else {
             simulation
         }

@@ -137,6 +137,8 @@ class Sweep:
             {"start": start, "rate": rate, "set": given}[kind][inner] = value
         machine = self.machine.with_parameters(given)
         plain = {"start": start, "rate": rate, **self._keywords["run"], **settings}
+        if plain["method"] != "auto":
+            plain.pop("one_of", None)
         return machine.simulate(self._keywords["until"], **plain)
 
     def to_pandas(self) -> Any:
@@ -474,6 +476,7 @@ def sweep(
             "events": events or (),
             "tolerance": tolerance,
             "method": method,
+            **({"one_of": runs} if method == "auto" else {}),
             "max_steps": max_steps,
         },
     }

@@ -56,6 +56,8 @@ pub struct Settings {
     absolute: f64,
     absolute_of: Vec<(String, f64)>,
     method: String,
+    /// The number of runs that share the derivation of a series.
+    one_of: u64,
     every: Option<f64>,
     at: Option<Vec<f64>>,
     dense: bool,
@@ -250,6 +252,7 @@ pub fn simulate(
         },
         method,
         is_automatic,
+        one_of: settings.one_of,
         start,
         until: settings.until,
         tolerance: [settings.relative, settings.absolute],
@@ -314,6 +317,8 @@ struct Task<'a> {
     method: &'static Method,
     /// Whether the run chooses its methods.
     is_automatic: bool,
+    /// Of how many runs it is one, if it does.
+    one_of: u64,
     start: State<Named>,
     until: f64,
     /// Relative and absolute tolerance.
@@ -416,7 +421,7 @@ impl Task<'_> {
             simulation = simulation.forget_steps();
         }
         if self.is_automatic {
-            simulation = simulation.automatic();
+            simulation = simulation.automatic().one_of(self.one_of);
         }
         for (name, of) in &self.absolute_of {
             simulation = simulation.absolute_of(name, *of);

@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::arguments::{Arguments, SetName, names_in, with_spec};
 use super::{
-    Assignment, Keep, Precision, Spec, Start, assignment, interval, number, steps, wide_tolerance,
+    Assignment, Keep, Precision, Spec, Start, assignment, count, interval, number, steps,
+    wide_tolerance,
 };
 
 /// Arguments of `evaluate`.
@@ -70,6 +71,10 @@ pub struct Simulate {
     /// semi-implicit-euler, gauss4, gauss6, gauss8, rattle or generalized-alpha.
     #[arg(long, value_name = "NAME", default_value = "auto")]
     pub method: String,
+    /// With auto: choose as one of this many runs, which share the derivation of a series; a row of a sweep of so many runs has the bits
+    /// of this run.
+    #[arg(long, value_name = "RUNS", value_parser = count, allow_hyphen_values = true)]
+    pub one_of: Option<u64>,
     /// The longest step, in s; the length of all steps of methods that have no tolerance.
     #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]
     pub longest_step: Option<f64>,
