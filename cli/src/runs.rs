@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use lagrangian::interpreted::{InterpretedMachine, Named, TableFile};
 use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{Crossing, InputLaw, Machine, Simulation, Solution, State, System};
+use lagrangian::{InputLaw, Machine, Simulation, Solution, State, System};
 use lagrangian_analysis::Curve;
 use lagrangian_analysis::curve::Interpolation;
 use lagrangian_mechanics::Compiled;
-use lagrangian_spec::diagnostic::{Report, most_similar};
+use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::stage;
 use lagrangian_spec::resolve::value_in;
 use lagrangian_spec::source::Sources;
@@ -20,7 +20,7 @@ use lagrangian_symbolic::{Dag, Stage};
 use crate::call::{self, Assignment};
 use crate::evaluate::set_start;
 use crate::exactness::Exactness;
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
 use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
 use crate::placed::Placed;
 use crate::reading::{self, ChartUse, InCharts, Reading};
@@ -248,11 +248,10 @@ impl Columns {
 
 /// The failure that there is no such column.
 pub fn unknown(name: &str, columns: &Columns, run: &Path) -> Failure {
-    let names = || columns.columns.iter().map(|column| column.name.as_str());
-    let help = match most_similar(name, names()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
-    };
+    let help = help_with(
+        name,
+        columns.columns.iter().map(|column| column.name.as_str()),
+    );
     Failure::Call(format!(
         "--of {name}: {} has no quantity named `{name}`; {help}",
         run.display()
@@ -492,15 +491,10 @@ fn run_spec(
         SampleInstants::At(_) => {}
         SampleInstants::Crossing(formula, direction, level) => {
             check_crossing(formula, stage_of_last_output(&compiled))?;
-            let crossing = match direction {
-                call::Direction::Up => Crossing::Rising,
-                call::Direction::Down => Crossing::Falling,
-                call::Direction::Both => Crossing::Any,
-            };
             let level =
                 level.and_then(|(name, value)| level_of(&machine, output_count, name, value));
             let (place, level) = level.unwrap_or((compiled.model.outputs.len() - 1, 0.0));
-            simulation = simulation.event_on("crossing", crossing, move |seen| {
+            simulation = simulation.event_on("crossing", direction.crossing(), move |seen| {
                 seen.outputs.values.get(place).copied().unwrap_or(f64::NAN) - level
             });
         }
@@ -522,10 +516,9 @@ fn run_spec(
     }
     progress::now("simulating");
     let ran = simulation.run_interpreted(start).map_err(|error| {
-        match Placed::of(&error, &compiled.model, &sources) {
-            Some(placed) => Failure::Placed(Box::new(placed)),
-            None => Failure::Run(verdict::message_of(&error)),
-        }
+        let placed = Placed::of(&error, &compiled.model, &sources);
+        let message = || Failure::Run(verdict::message_of(&error));
+        placed.map_or_else(message, |placed| Failure::Placed(Box::new(placed)))
     })?;
     if let Some(objection) = verdict::energy_error(&ran) {
         return Err(Failure::Run(objection));
