@@ -38,6 +38,7 @@ mod accelerations;
 mod charts;
 mod contacts;
 pub(crate) mod derived;
+pub mod disagreement;
 mod dynamics;
 pub(crate) mod number;
 mod projection;
