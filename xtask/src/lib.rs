@@ -204,43 +204,7 @@ fn quantities() -> String {
             docs,
             ..
         } = role.row();
-        let member = |kind: &ItemKind| match kind {
-            ItemKind::Coordinate => "coordinate",
-            ItemKind::Constraint => "constraint",
-            ItemKind::Contact => "contact",
-            ItemKind::Unilateral => "contact",
-            ItemKind::Face => "number of a corner on a face",
-            ItemKind::Direction => "direction",
-            ItemKind::Coefficient => "coefficient",
-        };
-        let numbers = match extent {
-            Extent::Number => "one".to_owned(),
-            Extent::Each(kind) => format!("one for each {}", member(kind)),
-            Extent::Symmetric(kind) => format!("symmetric, by {}s", member(kind)),
-            Extent::Rows(kind, other) => {
-                format!("a row for each {}, by {}s", member(kind), member(other))
-            }
-            Extent::Differentials => "a row for each coordinate, by variables".to_owned(),
-            Extent::Responses => "linear in the friction forces".to_owned(),
-            Extent::State => "coordinates, then rates".to_owned(),
-            Extent::Chosen => "chosen by the compiler".to_owned(),
-        };
-        let machines = match (role, needs) {
-            (_, Needs::Nothing) => "all",
-            (_, Needs::Constraints) => "with constraints",
-            (_, Needs::Contacts) => "with guided contacts",
-            (_, Needs::Unilateral) => "with unilateral contacts",
-            (_, Needs::Faces) => "with contacts of polygons",
-            (Role::Projection, _) => "with constraints, in emitted Rust",
-            (Role::Derivatives, _) => "with `derivatives`",
-            (Role::Adjoint, _) => "in functional mock-up units",
-            (Role::Gradient(_), _) => "one for each output, in functional mock-up units",
-            (Role::ContactPart(_), _) => "with many unilateral contacts",
-            (Role::Output(_), _) => "one for each output",
-            (Role::Assumption(_), _) => "one for each assumption",
-            (_, Needs::Stores) => "with `energies`",
-            (_, Needs::Request) => "with `stages`",
-        };
+        let (numbers, machines) = (words_of_extent(extent), words_of_machines(role, needs));
         let code = |text: &str| {
             if text.is_empty() {
                 String::new()
@@ -262,6 +226,51 @@ fn quantities() -> String {
         ));
     }
     text
+}
+
+/// How many numbers a quantity has.
+fn words_of_extent(extent: &Extent) -> String {
+    let member = |kind: &ItemKind| match kind {
+        ItemKind::Coordinate => "coordinate",
+        ItemKind::Constraint => "constraint",
+        ItemKind::Contact => "contact",
+        ItemKind::Unilateral => "contact",
+        ItemKind::Face => "number of a corner on a face",
+        ItemKind::Direction => "direction",
+        ItemKind::Coefficient => "coefficient",
+    };
+    match extent {
+        Extent::Number => "one".to_owned(),
+        Extent::Each(kind) => format!("one for each {}", member(kind)),
+        Extent::Symmetric(kind) => format!("symmetric, by {}s", member(kind)),
+        Extent::Rows(kind, other) => {
+            format!("a row for each {}, by {}s", member(kind), member(other))
+        }
+        Extent::Differentials => "a row for each coordinate, by variables".to_owned(),
+        Extent::Responses => "linear in the friction forces".to_owned(),
+        Extent::State => "coordinates, then rates".to_owned(),
+        Extent::Chosen => "chosen by the compiler".to_owned(),
+    }
+}
+
+/// Which machines have a quantity.
+fn words_of_machines(role: Role, needs: &Needs) -> &'static str {
+    match (role, needs) {
+        (_, Needs::Nothing) => "all",
+        (_, Needs::Constraints) => "with constraints",
+        (_, Needs::Contacts) => "with guided contacts",
+        (_, Needs::Unilateral) => "with unilateral contacts",
+        (_, Needs::Faces) => "with contacts of polygons",
+        (Role::Projection, _) => "with constraints, in emitted Rust",
+        (Role::Derivatives, _) => "with `derivatives`",
+        (Role::Adjoint, _) => "in functional mock-up units",
+        (Role::Gradient(_), _) => "one for each output, in functional mock-up units",
+        (Role::ContactPart(_), _) => "with many unilateral contacts",
+        (Role::Output(_), _) => "one for each output",
+        (Role::Assumption(_), _) => "one for each assumption",
+        (_, Needs::Stores) => "with `energies`",
+        (_, Needs::Request) => "with `stages`",
+    }
 }
 
 /// The sorted files of a folder with this extension; none if the folder does not exist.
