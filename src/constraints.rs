@@ -358,11 +358,12 @@ impl<V: Vector> Constraints<V> {
         workspace: &mut Workspace<'_, S::Matrix>,
         place: &mut Unprojected<'_, V>,
         level: Level,
-        (mut left, mut worst): (f64, usize),
+        residual: (f64, usize),
     ) -> Result<(), StepError> {
-        if self.contract(system, workspace, place, level, &mut (left, worst)) {
+        if self.contract(system, workspace, place, level, residual) {
             return Ok(());
         }
+        let (mut left, mut worst) = residual;
         // It may have stagnated at the round-off of the constraints themselves.
         let at = level as usize;
         for _ in 0..=workspace.m {
@@ -392,15 +393,15 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// Iterates as long as the corrections become shorter; returns whether the residual is below the threshold then. `residual` is the greatest
-    /// one, with its row, before and after.
+    /// Iterates as long as the corrections become shorter; returns whether the residual, which is the greatest one with its row, is below the
+    /// threshold then.
     fn contract<S: System<Vector = V>>(
         &mut self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
         place: &mut Unprojected<'_, V>,
         level: Level,
-        residual: &mut (f64, usize),
+        mut residual: (f64, usize),
     ) -> bool {
         let mut fresh = true;
         let mut far = self.distance(workspace, level);
@@ -409,7 +410,7 @@ impl<V: Vector> Constraints<V> {
                 return true;
             }
             let (part, mut near) =
-                self.damped_correction(system, workspace, place, level, far, residual);
+                self.damped_correction(system, workspace, place, level, far, &mut residual);
             if residual.0 <= self.reduction_threshold() {
                 return true;
             }

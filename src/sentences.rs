@@ -80,8 +80,8 @@ impl<'n> Said for &'n Vec<String> {
 
 /// What stands in a sentence as it is.
 macro_rules! said_as_it_is {
-    ($($of:ty),*) => {$(
-        impl Said for &$of {
+    ($($of:ty),* $(,)?) => {$(
+        impl $crate::sentences::Said for &$of {
             type Words = Self;
 
             fn said(self) -> Self {
@@ -91,13 +91,9 @@ macro_rules! said_as_it_is {
     )*};
 }
 
-said_as_it_is! { usize, bool, &'static str, crate::Singular, crate::ContactTrouble }
+said_as_it_is! { usize, bool, &'static str }
 #[cfg(feature = "std")]
-said_as_it_is! {
-    String, Vec<f64>, Vec<crate::KeptContradiction>, Option<f64>, Option<(usize, f64)>
-}
-#[cfg(feature = "interpreter")]
-said_as_it_is! { Vec<crate::error::Diagnostic> }
+said_as_it_is! { String, Vec<f64>, Option<f64>, Option<(usize, f64)> }
 
 /// Implements `Display` by a table with a row for each variant: its fields, and the sentence that they make.
 ///
@@ -129,4 +125,4 @@ macro_rules! sentences {
     (@write $f:ident $writing:block) => { $writing };
 }
 
-pub(crate) use sentences;
+pub(crate) use {said_as_it_is, sentences};

@@ -2,6 +2,7 @@
 
 use core::fmt::{self, Display};
 
+#[cfg(doc)]
 use crate::System;
 
 /// The equations of motion cannot be solved for the accelerations.
@@ -46,21 +47,6 @@ impl Singular {
     #[cold]
     pub fn constraint(constraint: usize, pivot: f64, diagonal: f64) -> Self {
         Self::at(Pivot::Constraint(constraint), pivot, diagonal)
-    }
-
-    /// Name of the coordinate or constraint at which elimination stopped.
-    pub fn name<'s, S: System>(&self, system: &'s S) -> &'s str {
-        let name = match self.at {
-            Pivot::Coordinate(index) => system.coordinates().nth(index).map(|row| row.name),
-            Pivot::Constraint(index) => system.constraints().nth(index).map(|row| row.name),
-            Pivot::Contact(index) | Pivot::NotDifferentiated(index) => {
-                let mut unilateral = system.unilateral_contacts();
-                let guide = system.contacts().nth(index);
-                guide.or_else(|| unilateral.nth(index).map(|contact| contact.name))
-            }
-            Pivot::NoWorkspace => None,
-        };
-        name.unwrap_or("?")
     }
 
     fn at(at: Pivot, pivot: f64, diagonal: f64) -> Self {

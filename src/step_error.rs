@@ -1,6 +1,6 @@
 //! Errors of steps.
 
-use crate::sentences::sentences;
+use crate::sentences::{said_as_it_is, sentences};
 use crate::{ContactTrouble, Singular};
 #[cfg(doc)]
 use crate::{Stepper, System};
@@ -140,6 +140,8 @@ pub enum StepError {
         step: f64,
     },
 }
+
+said_as_it_is! { Singular, ContactTrouble }
 
 sentences! { StepError, written to f:
     NoLength { t } =>

@@ -8,7 +8,8 @@ use core::fmt::Debug;
 
 use crate::series_memory::SeriesMemory;
 use crate::{
-    Assumption, Constraint, ContactQuantity, Quantity, Singular, State, UnilateralContact, Vector,
+    Assumption, Constraint, ContactQuantity, Pivot, Quantity, Singular, State, UnilateralContact,
+    Vector,
 };
 
 /// The largest number of coefficients of each coordinate that emitted code computes in [`System::series`].
@@ -726,36 +727,6 @@ fn write_each<S: System + ?Sized>(
     }
 }
 
-/// Equations of motion with derivatives of their accelerations with respect to the state, as linearization about an equilibrium needs them.
-/// Implicit methods do not use them: they take finite differences of the accelerations that the run evaluates, which include the effects of
-/// constraints and contacts.
-///
-/// Implemented by the code of a description with `derivatives { coordinates, rates }`, and by the
-/// interpreter for every machine.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not provide the derivatives of its accelerations with respect to the state",
-    label = "needs the derivatives of the accelerations",
-    note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine"
-)]
-pub trait Linearize: System {
-    /// The accelerations `a(t, q, v, u)` and, row after row, their derivatives
-    /// `∂aᵢ/∂qⱼ` and `∂aᵢ/∂vⱼ`, which are exact to rounding and not finite differences.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "a state, and the three things that are asked of it"
-    )]
-    fn linearize(
-        &self,
-        t: f64,
-        q: &Self::Vector,
-        v: &Self::Vector,
-        u: &Self::Inputs,
-        a: &mut Self::Vector,
-        by_coordinates: &mut Self::Matrix,
-        by_rates: &mut Self::Matrix,
-    ) -> Result<(), Singular>;
-}
-
 /// Equations of motion that are evaluated in stages, so that what stays the same is not computed again: implicit methods, impacts and
 /// friction iterate over rates while time and coordinates stay, and many states may share one time.
 ///
@@ -826,35 +797,19 @@ pub trait Staged: System {
     ) -> Result<(), Singular>;
 }
 
-/// Equations of motion with derivatives of their accelerations with respect to parameters and inputs as well.
-///
-/// Implemented by the code of a description with `derivatives { coordinates, rates, … }`, and by the interpreter.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not provide the derivatives of its accelerations with respect to the state, parameters and inputs",
-    label = "needs the derivatives of the accelerations",
-    note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine, with the names of the parameters and \
-            with `inputs`, where it is to be differentiated with respect to these"
-)]
-pub trait Differentiate: Linearize {
-    /// Names and units of the inputs and parameters with respect to which the accelerations are differentiated, in the order of the
-    /// columns: those in the description's `derivatives`.
-    fn variables(&self) -> impl ExactSizeIterator<Item = Quantity<'_>>;
-
-    /// [`linearize`](Linearize::linearize) and, row after row, the derivatives with respect to the [`variables`](Self::variables). Columns
-    /// that do not fit into `by_variables` are left out.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "a state, and the four things that are asked of it"
-    )]
-    fn differentiate(
-        &self,
-        t: f64,
-        q: &Self::Vector,
-        v: &Self::Vector,
-        u: &Self::Inputs,
-        a: &mut Self::Vector,
-        by_coordinates: &mut Self::Matrix,
-        by_rates: &mut Self::Matrix,
-        by_variables: &mut [f64],
-    ) -> Result<(), Singular>;
+impl Singular {
+    /// Name of the coordinate or constraint at which elimination stopped.
+    pub fn name<'s, S: System>(&self, system: &'s S) -> &'s str {
+        let name = match self.at {
+            Pivot::Coordinate(index) => system.coordinates().nth(index).map(|row| row.name),
+            Pivot::Constraint(index) => system.constraints().nth(index).map(|row| row.name),
+            Pivot::Contact(index) | Pivot::NotDifferentiated(index) => {
+                let mut unilateral = system.unilateral_contacts();
+                let guide = system.contacts().nth(index);
+                guide.or_else(|| unilateral.nth(index).map(|contact| contact.name))
+            }
+            Pivot::NoWorkspace => None,
+        };
+        name.unwrap_or("?")
+    }
 }

@@ -3,7 +3,7 @@
 use core::fmt::{self, Display};
 
 use super::{Error, KeptContradiction};
-use crate::sentences::{Quoted, ShortNumber, sentences};
+use crate::sentences::{Quoted, ShortNumber, said_as_it_is, sentences};
 
 /// ``with `x` and `y` kept, `rod` is 0.21 m^2 off``
 impl Display for KeptContradiction {
@@ -19,6 +19,10 @@ impl Display for KeptContradiction {
         }
     }
 }
+
+said_as_it_is! { std::vec::Vec<KeptContradiction> }
+#[cfg(feature = "interpreter")]
+said_as_it_is! { std::vec::Vec<super::Diagnostic> }
 
 sentences! { Error, written to f:
     #[cfg(feature = "interpreter")]
