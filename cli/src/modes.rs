@@ -23,13 +23,14 @@ use serde_json::{Map, Value, json};
 use crate::call;
 use crate::evaluate::{ended_assumptions, set_start};
 use crate::failure::Failure;
+pub use crate::numbers::number;
 use crate::numbers::shown_name;
 use crate::other_chart::{self, OtherChart};
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading};
 use crate::table;
 use vary::Trace;
-pub use words::{number, text_of_place};
+pub use words::text_of_place;
 use words::{text, text_of_trace};
 
 /// The names of the options that choose the start, for messages.

@@ -5,6 +5,16 @@ pub use lagrangian_sweep::shortest;
 use lagrangian_units::state_of;
 use serde_json::{Map, Value};
 
+/// A number with six digits, or fewer if exact.
+pub fn number(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    match rounded.abs() {
+        0.0 => "0".into(),
+        1e-3..1e6 => format!("{rounded}"),
+        _ => format!("{rounded:e}"),
+    }
+}
+
 /// A unit as it stands after a number: ` m`; nothing for a bare number.
 pub fn after_number(unit: &str) -> String {
     match unit {

@@ -12,7 +12,7 @@ use lagrangian::{
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::source::Sources;
-use lagrangian_sweep::charts::{self, ChartedPoints, Charts};
+use lagrangian_sweep::charts::{self, Charts};
 use lagrangian_sweep::signals::{self, InputArgument};
 use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
@@ -20,18 +20,18 @@ use serde_json::Value;
 
 use crate::call;
 use crate::contacts::{ContactSummary, Contacts};
-use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::global_error::{self, Estimate};
 use crate::inputs;
 use crate::interrupt::Interrupt;
+use crate::machine_in_chart::MachineInChart;
 use crate::methods::{self, AUTO};
 use crate::numbers::shortest;
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::placed::Placed;
 use crate::precise;
 use crate::progress;
-use crate::reading::{self, ChartUse, InCharts, Reading};
+use crate::reading::{self, ChartUse, Reading};
 use crate::recording::{Recording, Run};
 use crate::report::{self, CallSettings, Live, Report};
 use crate::{plot, table};
@@ -282,23 +282,21 @@ impl<'d> Prepared<'d> {
         let laws = reading.drive(written)?;
         let formulas = reading.formulas();
         let compiled = reading.compile_in_charts(dag, files.all(), ChartUse::Required);
-        let InCharts {
+        let compiled = compiled.map_err(inputs::as_call_failure)?;
+        if call.live && compiled.cartesian.is_some() {
+            return Err(Failure::Call(
+                "--live: the page cannot run a machine with `charts`; leave out --live, or leave `charts` out of the spec"
+                    .into(),
+            ));
+        }
+        let MachineInChart {
             mut compiled,
-            cartesian,
+            mut machine,
+            start,
+            charts,
             series: text_of_series,
             sources,
-        } = compiled.map_err(inputs::as_call_failure)?;
-        let mut machine = reading::machine(&compiled, &call.start)?;
-        reading::check_parameters(&machine)?;
-        let mut start = machine.start();
-        set_start(&mut start, &call.start)?;
-        reading::check_kept(&start, &call.keep)?;
-        let mut charts = None;
-        if let Some(cartesian) = cartesian {
-            let chart;
-            (machine, start, chart) = in_cartesian(call, (&compiled, &cartesian), &start)?;
-            (compiled, charts) = (cartesian, Some(chart));
-        }
+        } = MachineInChart::new(compiled, &call.start, &call.keep, ChartUse::Required)?;
         // Formulas of inputs are not outputs of the machine.
         let output_count = compiled.model.outputs.len() - formulas;
         compiled.model.outputs.truncate(output_count);
@@ -504,26 +502,6 @@ impl<'d> Prepared<'d> {
         };
         file.write_text(&page).map_err(Failure::message)
     }
-}
-
-/// The machine of a spec that names another chart and the start of its run in that chart, and how the run is shown in the coordinates of the spec.
-fn in_cartesian(
-    call: &call::Simulate,
-    (of_spec, cartesian): (&Compiled<'_>, &Compiled<'_>),
-    start: &State<Named>,
-) -> Result<(InterpretedMachine, State<Named>, Charts), Failure> {
-    if call.live {
-        return Err(Failure::Call(
-            "--live: the page cannot run a machine with `charts`; leave out --live, or leave `charts` out of the spec"
-                .into(),
-        ));
-    }
-    let machine = reading::machine(cartesian, &call.start.parameters_alone())?;
-    let points = ChartedPoints::of(&of_spec.model);
-    points.check_kept(&call.keep.names).map_err(Failure::Call)?;
-    let begun = Charts::begin(&points, machine.start(), start);
-    let (charts, start) = begun.map_err(Failure::Call)?;
-    Ok((machine, start, charts))
 }
 
 /// Warns that there is no Taylor series, so that another method is used; returns the warning.

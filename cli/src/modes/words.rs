@@ -11,7 +11,7 @@ use lagrangian_units::{rate_unit as unit_of_rate, state_of};
 
 use super::is_moving;
 use super::vary::{Critical, Point, Trace};
-use crate::numbers::{after_number, shown_name, width_of_names};
+use crate::numbers::{after_number, number, shown_name, width_of_names};
 
 /// The ranges in which motions grow or do not exist, and the critical values.
 pub(super) fn text_of_trace(trace: &Trace) -> String {
@@ -260,16 +260,6 @@ fn directions(count: usize) -> &'static str {
         "direction"
     } else {
         "directions"
-    }
-}
-
-/// A number with six digits, or fewer if exact.
-pub fn number(x: f64) -> String {
-    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
-    match rounded.abs() {
-        0.0 => "0".into(),
-        1e-3..1e6 => format!("{rounded}"),
-        _ => format!("{rounded:e}"),
     }
 }
 

@@ -67,7 +67,6 @@ pub(super) fn run(
     for t in &times {
         let State { q, v, .. } = run.at(*t).map_err(failed)?;
         let there = run.observe(*t, (&q, &v)).map_err(failed)?;
-        let u = &there.inputs.own.values;
         let (mut by_q, mut by_v) = (q.clone(), v.clone());
         charts::to_polar(points, n, [&mut by_q, &mut by_v]);
         let (mut own_q, mut own_v) = (q[..n].to_vec(), v[..n].to_vec());
@@ -79,7 +78,7 @@ pub(super) fn run(
             Of::Rate(i) => own_v[i],
             Of::Output(i) => {
                 let [q, v, a] = [&q, &v, &there.a].map(|list| list[..n].to_vec());
-                system.output(i, *t, &q, &v, &a, u)
+                system.output(i, *t, &q, &v, &a, &there.inputs.own.values)
             }
         };
         let by = |observed: &Observed| match observed.of {
