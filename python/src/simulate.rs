@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signals};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{
     Crossing, Error, InputLaw, Machine as _, Observation, Progress, Simulation, Solution, State,
@@ -85,6 +85,18 @@ struct Samples {
 }
 
 impl Samples {
+    /// At the given instants, or at equal intervals.
+    fn new(at: Option<Vec<f64>>, every: f64, [t0, until]: [f64; 2]) -> Samples {
+        Samples {
+            at,
+            every,
+            t0,
+            until,
+            passed: 0,
+            states: Vec::new(),
+        }
+    }
+
     fn next(&self) -> Option<f64> {
         match &self.at {
             Some(times) => times.get(self.passed).copied(),
@@ -172,6 +184,15 @@ impl Settings {
         Ok(every)
     }
 
+    /// The start of the run, in the coordinates of the spec.
+    fn start(&self, of: &Machine) -> State<Named> {
+        let mut start = of.machine.start();
+        start.t = self.t0;
+        start.q.values.clone_from(&self.q);
+        start.v.values.clone_from(&self.v);
+        start
+    }
+
     /// Whether the run calls Python functions of the state.
     fn has_functions(&self) -> bool {
         self.all_inputs.is_some()
@@ -216,10 +237,7 @@ pub fn simulate(
     let method = settings.method()?;
     let every = settings.interval()?;
     let has_functions = settings.has_functions();
-    let mut start = of.machine.start();
-    start.t = settings.t0;
-    start.q.values.clone_from(&settings.q);
-    start.v.values.clone_from(&settings.v);
+    let start = settings.start(of);
     // A Python function has the coordinates of the spec as its arguments, and may use the number of turns of an angle.
     let in_cartesian = if has_functions {
         None
@@ -234,20 +252,10 @@ pub fn simulate(
         Some((machine, start, charts)) => (machine, start, Some(charts)),
         None => (of.machine.clone(), start, None),
     };
-    if std::ptr::eq(method, &TAYLOR) {
-        let checked = py.detach(|| machine.prepare().check_series().map_err(str::to_owned));
-        checked.map_err(|reason| {
-            PyValueError::new_err(format!("method taylor: no series: {reason}"))
-        })?;
-    }
     let raised = Raised::default();
     let signals = inputs::driven(&machine, settings.rules, &raised)?;
-    if std::ptr::eq(method, &TAYLOR)
-        && let Some(reason) = without_series(&signals, &machine)
-    {
-        return Err(PyValueError::new_err(format!(
-            "method taylor: no series: {reason}"
-        )));
+    if std::ptr::eq(method, &TAYLOR) {
+        check_series(py, &machine, &signals)?;
     }
     let law = Law {
         signals,
@@ -271,14 +279,7 @@ pub fn simulate(
         events: events.collect::<PyResult<_>>()?,
         stop,
         progress: settings.progress,
-        samples: Samples {
-            at: settings.at,
-            every,
-            t0: settings.t0,
-            until: settings.until,
-            passed: 0,
-            states: Vec::new(),
-        },
+        samples: Samples::new(settings.at, every, [settings.t0, settings.until]),
         method,
         is_automatic: settings.method == AUTO,
         start,
@@ -302,6 +303,18 @@ pub fn simulate(
             Ok((Run::new(solution, states, charts), error))
         }
         Err(error) => Err(of_error(py, &of.derived, &error)),
+    }
+}
+
+/// Checks that the motion has a Taylor series.
+fn check_series(py: Python<'_>, machine: &InterpretedMachine, signals: &Signals) -> PyResult<()> {
+    let series = py.detach(|| machine.prepare().check_series().map_err(str::to_owned));
+    let reason = series.err().or_else(|| without_series(signals, machine));
+    match reason {
+        None => Ok(()),
+        Some(reason) => Err(PyValueError::new_err(format!(
+            "method taylor: no series: {reason}"
+        ))),
     }
 }
 
