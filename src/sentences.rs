@@ -95,7 +95,7 @@ said_as_it_is! { usize, bool, &'static str }
 #[cfg(feature = "std")]
 said_as_it_is! { String, Vec<f64>, Option<f64>, Option<(usize, f64)> }
 
-/// Implements `Display` by a table with a row for each variant: its fields, and the sentence that they make.
+/// Writes a method `write_sentence` by a table with a row for each variant: its fields, and the sentence that they make.
 ///
 /// In the sentence the fields are what [`Said`] makes of them. Where one sentence does not suffice, a block writes to the formatter
 /// that is named at the top of the table.
@@ -107,8 +107,8 @@ macro_rules! sentences {
             $variant:ident $(($whole:ident))? $({ $($field:ident),* $(,)? })? => $words:tt
         )*
     ) => {
-        impl core::fmt::Display for $of {
-            fn fmt(&self, $f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        impl $of {
+            fn write_sentence(&self, $f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 match self {
                     $(
                         $(#[$attribute])*

@@ -1,5 +1,7 @@
 //! Errors of steps.
 
+use core::fmt::{self, Display};
+
 use crate::sentences::{said_as_it_is, sentences};
 use crate::{ContactTrouble, Singular};
 #[cfg(doc)]
@@ -142,6 +144,12 @@ pub enum StepError {
 }
 
 said_as_it_is! { Singular, ContactTrouble }
+
+impl Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_sentence(f)
+    }
+}
 
 sentences! { StepError, written to f:
     NoLength { t } =>

@@ -24,6 +24,12 @@ said_as_it_is! { std::vec::Vec<KeptContradiction> }
 #[cfg(feature = "interpreter")]
 said_as_it_is! { std::vec::Vec<super::Diagnostic> }
 
+impl Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_sentence(f)
+    }
+}
+
 sentences! { Error, written to f:
     #[cfg(feature = "interpreter")]
     Spec { diagnostics, omitted } => {

@@ -106,6 +106,12 @@ pub enum Warning {
     },
 }
 
+impl Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_sentence(f)
+    }
+}
+
 sentences! { Warning, written to f:
     ToleranceRaised { asked, used } =>
         "a relative tolerance of {asked:e} asks for more digits than the numbers have; {used:e} was used"
