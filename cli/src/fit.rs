@@ -563,7 +563,7 @@ fn of_starts(
                 (
                     Subject::Rate(e, place),
                     "rate",
-                    data::rate_unit(coordinate_unit),
+                    unit::rate_unit(name, coordinate_unit),
                     1,
                     start.v.values[place],
                 )

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use lagrangian_brachistochrone::direct::{FastestMotion, Sought, Terrain, Trial};
 use lagrangian_brachistochrone::{Brachistochrone, Lapse, Moment, Problem};
+use lagrangian_units::rate_unit;
 use serde_json::{Map, Value, json};
 
 use super::tried;
@@ -360,11 +361,7 @@ impl<'d> FastestResult<'d> {
             ));
         }
         for (i, (name, unit)) in named() {
-            let unit = if unit == "1" {
-                "1/s".into()
-            } else {
-                format!("{unit}/s")
-            };
+            let unit = rate_unit(name, unit);
             columns.push(column(
                 format!("der({name})"),
                 unit,

@@ -39,14 +39,6 @@ pub struct Class {
     pub quantity: Quantity,
 }
 
-/// The unit of the rate of a coordinate, in the notation of the header of a run's table.
-pub fn rate_unit(unit: &str) -> String {
-    match unit {
-        "1" => "1/s".into(),
-        unit => format!("{unit}/s"),
-    }
-}
-
 /// The files of a call.
 ///
 /// # Errors
@@ -299,7 +291,7 @@ fn measurable(machine: &InterpretedMachine, compiled: &Compiled<'_>) -> Vec<Clas
         });
         all.push(Class {
             name: format!("der({})", of.name),
-            unit: rate_unit(of.unit),
+            unit: unit::rate_unit(of.name, of.unit),
             quantity: Quantity::Rate(i),
         });
     }

@@ -4,8 +4,8 @@ use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, State, System};
 use lagrangian_linear::starts::Cause;
 use lagrangian_spec::model::Model;
-use lagrangian_spec::unit::{self, integral_name, state_of};
 use lagrangian_symbolic::Expr;
+use lagrangian_units::{integral_name, rate_name, rate_unit, state_of};
 
 use crate::call;
 use crate::failure::{Failure, help_with};
@@ -112,7 +112,7 @@ impl Known {
         Variation {
             by: By::StartRate(k),
             name: format!("rate({name})"),
-            unit: rate_unit(unit),
+            unit: rate_unit(name, unit),
         }
     }
 
@@ -121,8 +121,8 @@ impl Known {
         let (name, unit) = &self.coordinates[k];
         Variation {
             by: By::StartRate(k),
-            name: format!("start({})", shown_rate(name)),
-            unit: unit::rate_unit(name, unit),
+            name: format!("start({})", rate_name(name, "")),
+            unit: rate_unit(name, unit),
         }
     }
 
@@ -177,12 +177,8 @@ impl Known {
         let (name, unit) = &self.coordinates[k];
         Observed {
             of: Of::Rate(k),
-            name: shown_rate(name),
-            unit: if is_integral(name) {
-                unit::rate_unit(name, unit)
-            } else {
-                rate_unit(unit)
-            },
+            name: rate_name(name, ""),
+            unit: rate_unit(name, unit),
         }
     }
 
@@ -309,19 +305,6 @@ pub(super) fn observed(
 /// Whether a coordinate is the integral of a state of first order.
 pub(super) fn is_integral(coordinate: &str) -> bool {
     state_of(coordinate).is_some()
-}
-
-/// The name of the rate of a coordinate: `der(x)`, or the name of a state.
-pub(super) fn shown_rate(coordinate: &str) -> String {
-    state_of(coordinate).unwrap_or_else(|| format!("der({coordinate})"))
-}
-
-/// The unit of the rate of a quantity with this unit.
-pub(super) fn rate_unit(unit: &str) -> String {
-    match unit {
-        "1" => "1/s".to_owned(),
-        unit => format!("{unit}/s"),
-    }
 }
 
 /// The quotient of two units.
