@@ -194,7 +194,7 @@ class Run:
 
     @property
     def start(self) -> State:
-        """The start; on the constraints."""
+        """The state at the start, projected onto the constraints."""
         return self._state(self._native.start, ())
 
     @property
@@ -424,7 +424,7 @@ class Report:
 
     @property
     def html(self) -> str:
-        """Its text."""
+        """The HTML text of the page."""
         if self._made is None:
             self._made = self._run._page()
         return self._made
@@ -557,9 +557,10 @@ def simulate(
     * What is kept: instants ``every`` so many seconds, or the instants ``at``; by default 1000 intervals. ``dense=False`` forgets
       the steps, which ``run.at`` needs.
     * ``tolerance`` is ``relative`` and ``absolute`` at once; ``absolute`` may be a mapping from names to numbers.
-    * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5``, ``radau9`` and ``radau13`` for stiff machines, ``taylor``; ``auto``
-      continues with ``radau`` where the machine is stiff and with time stepping where contacts accumulate, see ``run.choices``;
-      with steps of ``longest_step`` ``rk4``, ``semi-implicit-euler``, ``gauss4``, ``gauss6``, ``gauss8``, ``rattle``, ``generalized-alpha``, ``moreau``.
+    * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5``, ``radau9`` and ``radau13`` for stiff machines, ``taylor``; ``auto``,
+      which continues with ``taylor`` in long runs where this costs less, with a Radau method where the machine is stiff, and with
+      time stepping where contacts accumulate, see ``run.choices``; with steps of ``longest_step`` ``rk4``,
+      ``semi-implicit-euler``, ``gauss4``, ``gauss6``, ``gauss8``, ``rattle``, ``generalized-alpha``, ``moreau``.
     * ``keep``: numbers of the start that constraints do not move, ``"theta"`` or ``"der(theta)"``.
     * ``progress``: ``"auto"`` (a line on a terminal after 2 s), False, or ``f(fraction, t, steps)``.
 

@@ -1,4 +1,4 @@
-"""One machine, many runs."""
+"""Sweeps: many runs of one machine."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class _Distribution:
 
 
 class Uniform(_Distribution):
-    """Uniformly between a and b."""
+    """A uniform distribution between a and b."""
 
     _kind = "uniform"
 
@@ -46,7 +46,7 @@ class Uniform(_Distribution):
 
 
 class LogUniform(_Distribution):
-    """With a uniformly distributed logarithm, between a and b of the same sign."""
+    """A distribution whose logarithm is uniform, between a and b of the same sign."""
 
     _kind = "log_uniform"
 
@@ -57,7 +57,7 @@ class LogUniform(_Distribution):
 
 
 class Normal(_Distribution):
-    """Normally."""
+    """A normal distribution with this mean and standard deviation."""
 
     _kind = "normal"
 
@@ -68,7 +68,7 @@ class Normal(_Distribution):
 
 
 class Triangular(_Distribution):
-    """Between a and b, with a density that rises to the peak and falls from there."""
+    """A triangular distribution between a and b: its density rises linearly to the peak and falls linearly from there."""
 
     _kind = "triangular"
 
