@@ -16,7 +16,7 @@
 //! Where contacts change, rates and forces jump, and a function may be 0 exactly there: a height that an impact turns around. Whether it is 0 is decided
 //! within the rounding that the contacts themselves allow for gaps and rates at rest. If it is, its sign just after that instant decides: a function
 //! with the same sign on both sides touches zero and has no event, one with the other sign, or that stays at zero, has one event at that instant. A
-//! function that jumps over zero has one, too. A step of time stepping in which contacts close counts like such an instant: only its ends are looked at,
+//! function that jumps over zero has one, too. A step of time stepping in which contacts close counts like such an instant: only the values at its ends are compared,
 //! since impacts are not located within it.
 
 mod last_step;

@@ -28,8 +28,8 @@
 //! The states of all contacts have to be determined together. This is done only when a contact comes to rest, breaks away, or changes
 //! the side on which it presses. In the plane this is a linear complementarity problem, that of pairs of opposite unilateral contacts
 //! ([`contact_law`](crate::contact_law); F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6). Contacts
-//! that do not depend on each other are asked apart. If it is not proved that there is one solution (E80), all combinations are
-//! examined, if these are not too many, which shows whether there is.
+//! that do not depend on each other are solved for separately. If it is not proved that there is only one solution (E80), all combinations are
+//! examined, unless there are too many, which shows whether there is only one.
 //! In between, the states are kept: the motion is smooth, and sticking contacts are held at `w = 0` itself. In the plane contacts that stick
 //! and depend on each other hold as long as any distribution of their forces permits it (`shares`); then they break away together.
 

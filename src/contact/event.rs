@@ -1,4 +1,4 @@
-//! What a run tells of its unilateral contacts.
+//! Events of unilateral contacts, as a run reports them.
 
 use std::string::String;
 

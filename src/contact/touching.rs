@@ -1,4 +1,4 @@
-//! What is closed, slips and sticks: the state of contacts between two events.
+//! The state of contacts between two events: which are closed, which slip, and which stick.
 
 mod compliant;
 mod forces_of_step;

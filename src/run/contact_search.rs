@@ -1,7 +1,7 @@
-//! When contacts change within a step, and how: gaps that close, forces that vanish, slips that stop or begin.
+//! When and how contacts change within a step: gaps that close, forces that vanish, slips that stop or begin.
 //!
-//! Each step is looked at several times. Only where a look shows that something may have changed since the one before it, the instant is searched
-//! for on dense output.
+//! Each step is sampled several times. The instant is searched for on the dense output only where a sample shows that something may have changed since the
+//! previous one.
 
 use std::boxed::Box;
 use std::vec;

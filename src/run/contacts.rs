@@ -1,4 +1,4 @@
-//! Unilateral contacts in a run: lets them meet where they change, and tells what happened.
+//! Unilateral contacts in a run: changes their states where they meet, and reports the changes.
 
 use std::string::String;
 use std::vec;

@@ -1,4 +1,4 @@
-//! What a call differentiates, and by what.
+//! The quantities that a call differentiates, and the variables by which it does.
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, State, System};

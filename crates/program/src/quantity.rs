@@ -213,9 +213,9 @@ use Extent::{Chosen, Differentials, Each, Number, Responses, Rows, State, Symmet
 use ItemKind::{Coefficient, Constraint, Contact, Coordinate, Direction, Face, Unilateral};
 
 quantities! {
-    /// Prepared values: what parameters alone decide.
+    /// Prepared values: everything that depends on parameters alone.
     Prepare => { "prepare", "", "k*", Chosen, [], Nothing, Seldom, "" }
-    /// The coordinates at the start, and behind them their rates if any of these is not 0.
+    /// The coordinates at the start, followed by their rates if any of these is not 0.
     Start => { "start", "", "s*", State, [], Nothing, Seldom, "" }
     /// Mass matrix `M`.
     MassMatrix => { "mass_matrix", "M", "m*", Symmetric(Coordinate), [Time Coordinates], Nothing, Seldom, "E4" }
@@ -255,8 +255,8 @@ quantities! {
         "multipliers", "lambda", "lambda*", Each(Constraint), [Time Coordinates Velocities Inputs], Constraints, Solves,
         "E31"
     }
-    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and how independent these are. Only of machines
-    /// whose constraints are independent.
+    /// Residuals of positions and rates, rows of `G`, the smallest displacements onto the constraints, and how independent these are. Only for
+    /// machines whose constraints are independent.
     Projection => {
         "projection", "", "r*", Chosen, [Time Coordinates Velocities], Request, Solves, "E31"
     }
@@ -268,9 +268,9 @@ quantities! {
     SlipBias => {
         "slip_bias", "sigma", "bias*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32"
     }
-    /// What there is without friction, and what a unit of each friction force adds to it: accelerations, multipliers,
-    /// `dw/dt` and the normal reaction of each contact; behind these the coefficients of friction. A machine with
-    /// contacts has this in place of accelerations and multipliers.
+    /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without friction, and the change of each
+    /// by a unit of each friction force; followed by the coefficients of friction. A machine with guided contacts has
+    /// this in place of accelerations and multipliers.
     Friction => {
         "friction", "", "r*", Responses, [Time Coordinates Velocities Inputs], Contacts, Solves, "E34"
     }
@@ -288,24 +288,23 @@ quantities! {
     ContactBias => {
         "contact_bias", "", "bias*", Each(Direction), [Time Coordinates Velocities], Unilateral, Seldom, "E53"
     }
-    /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (of contacts that
-    /// yield the parameters of their force), friction, static
-    /// friction.
+    /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (for compliant contacts
+    /// the parameters of their force), friction, static friction.
     ContactCoefficients => {
         "contact_coefficients", "", "c*", Each(Coefficient), [Time Coordinates Velocities], Unilateral, Seldom, ""
     }
-    /// Of each unilateral contact that is with a face of a polygon: how far its corner is outside of that face, how far it is
-    /// beyond the ends of it, negative between them, both in m, and how fast the second grows, in m/s.
+    /// For each unilateral contact of a corner with a face of a polygon: the distance of the corner outside the face, and its
+    /// distance beyond the ends of the face, negative between them, both in m; the rate of the second, in m/s.
     ContactFaces => {
         "contact_faces", "", "face*", Each(Face), [Time Coordinates Velocities], Faces, Seldom, "E77"
     }
-    /// Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of
-    /// `M da/dx = d(f - M a)/dx` with `a` held.
+    /// Accelerations `a` with their derivatives by each requested `x`, the solutions of
+    /// `M da/dx = d(f - M a)/dx` with `a` held constant.
     Derivatives => {
         "derivatives", "", "d*", Differentials, [Time Coordinates Velocities Inputs], Request, Solves, "E26"
     }
-    /// Derivatives of a sum of accelerations by coordinates, rates, parameters and inputs; the weights of the sum are the
-    /// inputs behind the machine's own.
+    /// Derivatives of a weighted sum of accelerations by coordinates, rates, parameters and inputs; the weights are additional
+    /// inputs after those of the machine.
     Adjoint => {
         "adjoint", "", "g*", Chosen, [Time Coordinates Velocities Inputs], Request, Solves, ""
     }
@@ -313,15 +312,15 @@ quantities! {
     Gradient(usize) => {
         "gradient", "", "g*", Chosen, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
     }
-    /// Numbers of one unilateral contact, of which the others are 0, with its arguments in place of the coordinates.
+    /// Numbers of one unilateral contact, without those that are 0, with its arguments in place of the coordinates.
     ContactPart(usize) => {
         "contact_part", "", "r*", Chosen, [Time Coordinates], Request, Seldom, ""
     }
-    /// What time alone decides of the accelerations.
+    /// The part of the accelerations that depends on time alone.
     AtTime => { "at_time", "", "r*", Chosen, [Time], Request, Often, "" }
-    /// What time and coordinates decide of the accelerations.
+    /// The part of the accelerations that depends on time and coordinates.
     AtPosition => { "at_position", "", "r*", Chosen, [Time Coordinates], Request, Solves, "" }
-    /// Accelerations `a`, of what the stage before has left.
+    /// Accelerations `a`, from the results of the previous stage.
     AccelerationsAt => {
         "accelerations_at", "a", "*_ddot", Each(Coordinate), [Time Coordinates Velocities Inputs], Request, Solves, "E7"
     }
@@ -333,11 +332,11 @@ quantities! {
     StateEnergy => { "state_energy", "E", "", Number, [Time Coordinates Velocities], Stores, Seldom, "E59" }
     /// Dissipation function `D`, in W.
     Dissipation => { "dissipation", "D", "", Number, [Time Coordinates Velocities Inputs], Nothing, Seldom, "E3" }
-    /// Power `P` that drives, forces and inputs put in, in W.
+    /// Power `P` supplied by drives, forces and inputs, in W.
     WorkRate => {
         "work_rate", "P", "", Number, [Time Coordinates Velocities Accelerations Inputs], Nothing, Seldom, "E19"
     }
-    /// Power `R` that dampers take out, in W.
+    /// Power `R` dissipated by dampers, in W.
     DissipationRate => {
         "dissipation_rate", "R", "", Number, [Time Coordinates Velocities Inputs], Nothing, Seldom, "E18"
     }
@@ -345,7 +344,7 @@ quantities! {
     Output(usize) => {
         "output", "", "", Number, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
     }
-    /// What a fact says is positive, by its index among the assumptions.
+    /// The expression that an assumption states to be positive, by its index among the assumptions.
     Assumption(usize) => { "assumption", "", "", Number, [Time Coordinates Velocities Inputs], Request, Seldom, "" }
 }
 

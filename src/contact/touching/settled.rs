@@ -1,4 +1,4 @@
-//! What contacts that touch do next.
+//! Determines the next state of touching contacts.
 
 use std::vec;
 use std::vec::Vec;

@@ -1,4 +1,4 @@
-//! What is said of a program that could not be proved.
+//! The messages about a program that could not be proved.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Tests of what is written in coordinates against the motion along the guides.
+//! Tests that elements written in coordinates act along the guides alone.
 
 use lagrangian_spec::diagnostic::{Code, Diagnostic};
 use lagrangian_spec::identity;
