@@ -907,7 +907,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10
     (t5 * t5 + t3 * t3) * p.half_by + (t4 * t4 + t2 * t2) * p.half_bx
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = 2*Mk*sk*der(psi)*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
@@ -919,7 +919,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10])
     t1 / (t0 * (t0 * p.inverse_omega2) + p.sk2)
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2

@@ -349,7 +349,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4]
     theta_dot * (theta_dot * p.half_b)
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = kp*i*wanted - (kp - kd/tau)*i*seen + ki*i*error - kd*theta*i/tau
@@ -372,7 +372,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     t0 * i_dot + t3
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = b*der(theta)^2 + R*i^2

@@ -936,7 +936,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     theta_dot * (theta_dot * p.bx_yc2_plus_by_xc2) + t0
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = …
@@ -982,7 +982,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     (t3 * t12 + t4 * t11) * p.m0_e_omega2 - t19 - t21 - t22
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2

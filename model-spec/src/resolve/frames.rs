@@ -572,7 +572,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             let Some(first) = four[0] else { continue };
             let name = &first.name;
-            let message = "all four components of this quaternion start at 0, where they define no rotation";
+            let message =
+                "all four components of this quaternion start at 0, where they define no rotation";
             let diagnostic = Diagnostic::new(Code::DivisionByZero, *span, message);
             let diagnostic = diagnostic.note(first.span, "the first of them");
             self.push(diagnostic.help(format!("`{name}: 1 = 1` starts it without rotation")));
