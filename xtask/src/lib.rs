@@ -188,8 +188,9 @@ fn quantities() -> String {
          This page lists everything that a machine can compute. Each quantity is a function in emitted Rust and C, and in the\n\
          listing that `lagrangian derive --as program` prints. Those that depend on the state are methods of `System` under the\n\
          same name, except those that are generated on request (derivatives, stages, outputs, assumptions, single\n\
-         contacts). Letters: t time, q coordinates, v their rates, a accelerations, u inputs. Definitions are those of [equations.md](equations.md). In emitted Rust, a\n\
-         machine with at least 16 unilateral contacts has a function for each kind of contact in place of those for all.\n\n\
+         contacts). Letters: t time, q coordinates, v their rates, a accelerations, u inputs. Definitions are those of\n\
+         [equations.md](equations.md). In emitted Rust, a machine with at least 16 unilateral contacts has a function for each\n\
+         kind of contact in place of those for all.\n\n\
          | function | symbol | numbers | of | machines | definition | what it is |\n\
          | --- | --- | --- | --- | --- | --- | --- |\n",
     );
