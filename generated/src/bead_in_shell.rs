@@ -1,8 +1,9 @@
 // @generated from machines/bead_in_shell.machine by `cargo xtask generate`; edits are lost.
 
 //! A bead between two rough spherical shells, which hold it from both sides: a spherical pendulum
-//! with dry friction. It
-//! presses outwards with what keeps it on its way, also where it goes over the top.
+//! with dry friction. The
+//! reaction of the shells keeps it at its distance from the centre, also where it passes over
+//! the top.
 //!
 //! 2 coordinates, 5 parameters. Arithmetic of one call:
 //!
@@ -36,8 +37,9 @@
 #![allow(rustdoc::all)]
 
 /// A bead between two rough spherical shells, which hold it from both sides: a spherical pendulum
-/// with dry friction. It
-/// presses outwards with what keeps it on its way, also where it goes over the top.
+/// with dry friction. The
+/// reaction of the shells keeps it at its distance from the centre, also where it passes over
+/// the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeadInShell<S = f64> {
     /// Mass of the bead. Unit: `kg`. Default: 0.05.

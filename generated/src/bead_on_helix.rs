@@ -1,9 +1,9 @@
 // @generated from machines/bead_on_helix.machine by `cargo xtask generate`; edits are lost.
 
-//! A bead on a rough helix about a vertical axis, under gravity. The wire presses on it in two
-//! directions: outwards as fast as
-//! it goes, and against its weight; so it does not accelerate for ever, but comes to a speed at
-//! which friction takes what gravity gives.
+//! A bead on a rough helix about a vertical axis, under gravity. The wire holds it in two
+//! directions: against the centrifugal
+//! force, which grows with the speed, and against its weight. Therefore the bead approaches a speed
+//! at which friction balances gravity.
 //!
 //! 1 coordinate, 6 parameters. Arithmetic of one call:
 //!
@@ -30,10 +30,10 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A bead on a rough helix about a vertical axis, under gravity. The wire presses on it in two
-/// directions: outwards as fast as
-/// it goes, and against its weight; so it does not accelerate for ever, but comes to a speed at
-/// which friction takes what gravity gives.
+/// A bead on a rough helix about a vertical axis, under gravity. The wire holds it in two
+/// directions: against the centrifugal
+/// force, which grows with the speed, and against its weight. Therefore the bead approaches a speed
+/// at which friction balances gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeadOnHelix<S = f64> {
     /// Mass of the bead. Unit: `kg`. Default: 0.01.

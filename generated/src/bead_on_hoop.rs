@@ -1,8 +1,8 @@
 // @generated from machines/bead_on_hoop.machine by `cargo xtask generate`; edits are lost.
 
 //! A bead on a rough hoop that is turned about its vertical diameter. It sticks wherever friction
-//! can hold it; the hoop presses
-//! on it in its own plane, and across it while the bead slides.
+//! can hold it. The reaction of the
+//! hoop lies in its plane, and while the bead slides it also has a component across this plane.
 //!
 //! 1 coordinate, 5 parameters. Arithmetic of one call:
 //!
@@ -34,8 +34,8 @@
 #![allow(rustdoc::all)]
 
 /// A bead on a rough hoop that is turned about its vertical diameter. It sticks wherever friction
-/// can hold it; the hoop presses
-/// on it in its own plane, and across it while the bead slides.
+/// can hold it. The reaction of the
+/// hoop lies in its plane, and while the bead slides it also has a component across this plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeadOnHoop<S = f64> {
     /// Mass of the bead. Unit: `kg`. Default: 0.01.

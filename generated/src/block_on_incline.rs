@@ -1,7 +1,7 @@
 // @generated from machines/block_on_incline.machine by `cargo xtask generate`; edits are lost.
 
 //! A block on an incline whose angle may grow with time: it sticks until tan α exceeds the
-//! coefficient of friction, and then slides with what is left of its weight.
+//! coefficient of friction, and then slides.
 //!
 //! 1 coordinate, 6 parameters. Arithmetic of one call:
 //!
@@ -32,7 +32,7 @@
 #![allow(rustdoc::all)]
 
 /// A block on an incline whose angle may grow with time: it sticks until tan α exceeds the
-/// coefficient of friction, and then slides with what is left of its weight.
+/// coefficient of friction, and then slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlockOnIncline<S = f64> {
     /// Mass of the block. Unit: `kg`. Default: 2.

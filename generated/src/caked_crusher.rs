@@ -1,8 +1,8 @@
 // @generated from machines/caked_crusher.machine by `cargo xtask generate`; edits are lost.
 
-//! The crush process with the crushed material caked on the pestle, delta thick, instead of
-//! lying in
-//! the mortar.
+//! The crush process with a layer of crushed material of thickness delta caked on the pestle,
+//! instead of
+//! in the mortar.
 //!
 //! 9 coordinates, 25 parameters. Arithmetic of one call:
 //!
@@ -40,9 +40,9 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// The crush process with the crushed material caked on the pestle, delta thick, instead of
-/// lying in
-/// the mortar.
+/// The crush process with a layer of crushed material of thickness delta caked on the pestle,
+/// instead of
+/// in the mortar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CakedCrusher<S = f64> {
     /// Mass of the platform. Unit: `kg`. Default: 600.

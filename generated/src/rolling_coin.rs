@@ -1,8 +1,8 @@
 // @generated from machines/rolling_coin.machine by `cargo xtask generate`; edits are lost.
 
-//! A coin, or a disc, that rolls on a table: position of the point where it touches, heading,
-//! lean and
-//! roll. What touches stands still: two constraints on rates alone.
+//! A coin, or a disc, that rolls on a table: position of the contact point, heading, lean and
+//! roll. The
+//! material point that touches is at rest: two constraints on rates alone.
 //!
 //! 5 coordinates, 5 parameters. Arithmetic of one call:
 //!
@@ -37,9 +37,9 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A coin, or a disc, that rolls on a table: position of the point where it touches, heading,
-/// lean and
-/// roll. What touches stands still: two constraints on rates alone.
+/// A coin, or a disc, that rolls on a table: position of the contact point, heading, lean and
+/// roll. The
+/// material point that touches is at rest: two constraints on rates alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingCoin<S = f64> {
     /// `m`. Unit: `kg`. Default: 1.

@@ -2,9 +2,11 @@
 
 //! The crusher with its energies to second order in the platform's angle and angular rate together.
 //!
-//! What is left out of the energies is of third order: half the angle, an eighth of the error.
-//! Unlike the frozen machine it keeps how the turn of the platform displaces the axis of the
-//! debalance, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and with it the product of angle and rate.
+//! The terms of the energies that are left out are of third order: with half the angle, the error
+//! is an eighth. Unlike the frozen machine it includes the displacement of the axis of the
+//! debalance by
+//! the rotation of the platform, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and thus products of angle
+//! and rate.
 //!
 //! 9 coordinates, 18 parameters. Arithmetic of one call:
 //!
@@ -39,9 +41,11 @@
 
 /// The crusher with its energies to second order in the platform's angle and angular rate together.
 ///
-/// What is left out of the energies is of third order: half the angle, an eighth of the error.
-/// Unlike the frozen machine it keeps how the turn of the platform displaces the axis of the
-/// debalance, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and with it the product of angle and rate.
+/// The terms of the energies that are left out are of third order: with half the angle, the error
+/// is an eighth. Unlike the frozen machine it includes the displacement of the axis of the
+/// debalance by
+/// the rotation of the platform, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and thus products of angle
+/// and rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmallAngleCrusher<S = f64> {
     /// Mass of the platform. Unit: `kg`. Default: 600.

@@ -1,7 +1,7 @@
 // @generated from machines/wedge_and_block.machine by `cargo xtask generate`; edits are lost.
 
-//! A block slides down a wedge that slides on a table: what presses on either depends on how both
-//! accelerate.
+//! A block slides down a wedge that slides on a table: the normal forces of both depend on both
+//! accelerations.
 //!
 //! 2 coordinates, 6 parameters. Arithmetic of one call:
 //!
@@ -26,8 +26,8 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A block slides down a wedge that slides on a table: what presses on either depends on how both
-/// accelerate.
+/// A block slides down a wedge that slides on a table: the normal forces of both depend on both
+/// accelerations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WedgeAndBlock<S = f64> {
     /// Mass of the wedge. Unit: `kg`. Default: 3.
