@@ -413,7 +413,7 @@ fn loads_shared(system: &InterpretedSystem, at: At<'_, InterpretedSystem>) -> Op
         .collect();
     (!names.is_empty()).then(|| {
         format!(
-            "the accelerations depend on how {} share their load: the distribution of contacts that all yield alike could not be computed, and another \
+            "the accelerations depend on how {} share their load: the distribution of equally stiff contacts could not be computed, and another \
              possible one was taken",
             names.join(", ")
         )

@@ -62,7 +62,7 @@ pub enum Warning {
         /// The number of instants at which contacts jammed.
         instants: usize,
     },
-    /// The motion depends on how contacts share their load, which rigid bodies leave undetermined. The distribution of contacts that all yield alike could not
+    /// The motion depends on how contacts share their load, which rigid bodies leave undetermined. The distribution of equally stiff contacts could not
     /// be computed, and another possible one was taken.
     LoadShared {
         /// When this was so first, in s.
@@ -161,7 +161,7 @@ impl Display for Warning {
                 instants,
             } => write!(
                 f,
-                "the motion depends on how {} share their load at t = {t} s: the distribution of contacts that all yield alike \
+                "the motion depends on how {} share their load at t = {t} s: the distribution of equally stiff contacts \
                  could not be computed, and another possible one was taken{}",
                 quoted(contacts),
                 InstantsOfMany(*instants),
