@@ -3,7 +3,7 @@
 import math
 
 COLORS = ("#0b5394", "#c8553d", "#588157", "#8a5a9e", "#b8860b", "#008b8b", "#111111", "#777777")
-WIDTH, HEIGHT, LEFT, TOP, LEGEND = 420.0, 360.0, 60.0, 34.0, 200.0
+WIDTH, HEIGHT, LEFT, TOP, LEGEND = 420.0, 360.0, 60.0, 34.0, 240.0
 
 
 def text(x, y, anchor, words):

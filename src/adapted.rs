@@ -80,7 +80,8 @@ where
     /// # Errors
     /// If the machine has friction at guides.
     pub fn new(machine: M, force: F) -> Result<Self, HasFriction> {
-        match machine.prepare().contacts().len() {
+        let system = machine.prepare();
+        match system.contacts().len() + system.guides() {
             0 => Ok(Self { machine, force }),
             _ => Err(HasFriction),
         }

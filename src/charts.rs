@@ -1,8 +1,8 @@
 //! Machines whose description names Cartesian coordinates for points in polar ones, and their runs in these.
 //!
-//! At a distance of 0 the angle of polar coordinates says nothing and the mass matrix is singular. A run in Cartesian coordinates passes
-//! such a point like any other; only what is shown of it is converted. A distance and the direction of an angle follow from the
-//! components at each instant. How often the angle has turned does not, so it is followed through every step.
+//! At a distance of 0 the angle of polar coordinates is undefined and the mass matrix is singular. A run in Cartesian coordinates passes
+//! such a point like any other; only its results are converted. The distance and the angle up to whole turns follow from the
+//! components at each instant. The number of turns does not, so it is followed through every step.
 
 mod maps;
 #[cfg(feature = "std")]

@@ -358,64 +358,14 @@ impl<V: Vector> Constraints<V> {
         workspace: &mut Workspace<'_, S::Matrix>,
         place: &mut Unprojected<'_, V>,
         level: Level,
-        (mut left, mut worst): (f64, usize),
+        residual: (f64, usize),
     ) -> Result<(), StepError> {
-        let at = level as usize;
-        let moved = match level {
-            Level::Positions => Changed::All,
-            Level::Rates => Changed::Rates,
-        };
-        let mut fresh = true;
-        let mut far = self.distance(workspace, level);
-        for _ in 0..MOST_ITERATIONS {
-            if left <= self.reduction_threshold() {
-                return Ok(());
-            }
-            self.correction(workspace, level);
-            let mut part = 1.0;
-            let mut near;
-            loop {
-                let [y, low] = place.level(level);
-                for (j, by) in workspace.column.iter().enumerate() {
-                    let (y, low) = (&mut y.as_mut_slice()[j], &mut low.as_mut_slice()[j]);
-                    if part == 1.0 {
-                        workspace.before[j] = *y;
-                    }
-                    (*y, *low) = two_sum(workspace.before[j], *low + part * by);
-                }
-                (left, worst) = self.residual(system, workspace, place, level, moved);
-                near = self.distance(workspace, level);
-                // Far from the constraints a full step may be too long.
-                if near <= (1.0 - 0.25 * part) * far || part < 0.01 || left < NEAR {
-                    break;
-                }
-                part *= 0.5;
-            }
-            for (moved, by) in self.moved[at]
-                .as_mut_slice()
-                .iter_mut()
-                .zip(&*workspace.column)
-            {
-                *moved += part * by;
-            }
-            if left <= self.reduction_threshold() {
-                return Ok(());
-            }
-            if fresh && !(near <= (1.0 - 0.125 * part) * far) {
-                break;
-            }
-            fresh = !(near <= 0.1 * far);
-            if fresh {
-                // If rows become dependent on the way, the iteration cannot continue.
-                let at = (place.t, &*place.q[0]);
-                if self.factor(system, workspace, at, level).is_err() {
-                    break;
-                }
-                near = self.distance(workspace, level);
-            }
-            far = near;
+        if self.contract(system, workspace, place, level, residual) {
+            return Ok(());
         }
+        let (mut left, mut worst) = residual;
         // It may have stagnated at the round-off of the constraints themselves.
+        let at = level as usize;
         for _ in 0..=workspace.m {
             let guaranteed = self.guaranteed_residual(workspace, place, level);
             let last = &*place.level(level)[0];
@@ -441,6 +391,86 @@ impl<V: Vector> Constraints<V> {
             residual: left,
             t: place.t,
         })
+    }
+
+    /// Iterates as long as the corrections become shorter; returns whether the residual, which is the greatest one with its row, is below the
+    /// threshold then.
+    fn contract<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        workspace: &mut Workspace<'_, S::Matrix>,
+        place: &mut Unprojected<'_, V>,
+        level: Level,
+        mut residual: (f64, usize),
+    ) -> bool {
+        let mut fresh = true;
+        let mut far = self.distance(workspace, level);
+        for _ in 0..MOST_ITERATIONS {
+            if residual.0 <= self.reduction_threshold() {
+                return true;
+            }
+            let (part, mut near) =
+                self.damped_correction(system, workspace, place, level, far, &mut residual);
+            if residual.0 <= self.reduction_threshold() {
+                return true;
+            }
+            if fresh && !(near <= (1.0 - 0.125 * part) * far) {
+                break;
+            }
+            fresh = !(near <= 0.1 * far);
+            if fresh {
+                // If rows become dependent on the way, the iteration cannot continue.
+                let at = (place.t, &*place.q[0]);
+                if self.factor(system, workspace, at, level).is_err() {
+                    break;
+                }
+                near = self.distance(workspace, level);
+            }
+            far = near;
+        }
+        false
+    }
+
+    /// Moves the state by a correction of Newton's method, or by that part of it which makes the next one shorter than `far`. Returns the part and
+    /// the length of the next correction.
+    fn damped_correction<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        workspace: &mut Workspace<'_, S::Matrix>,
+        place: &mut Unprojected<'_, V>,
+        level: Level,
+        far: f64,
+        residual: &mut (f64, usize),
+    ) -> (f64, f64) {
+        let moved = match level {
+            Level::Positions => Changed::All,
+            Level::Rates => Changed::Rates,
+        };
+        self.correction(workspace, level);
+        let mut part = 1.0;
+        let mut near;
+        loop {
+            let [y, low] = place.level(level);
+            for (j, by) in workspace.column.iter().enumerate() {
+                let (y, low) = (&mut y.as_mut_slice()[j], &mut low.as_mut_slice()[j]);
+                if part == 1.0 {
+                    workspace.before[j] = *y;
+                }
+                (*y, *low) = two_sum(workspace.before[j], *low + part * by);
+            }
+            *residual = self.residual(system, workspace, place, level, moved);
+            near = self.distance(workspace, level);
+            // Far from the constraints a full step may be too long.
+            if near <= (1.0 - 0.25 * part) * far || part < 0.01 || residual.0 < NEAR {
+                break;
+            }
+            part *= 0.5;
+        }
+        let corrected = self.moved[level as usize].as_mut_slice().iter_mut();
+        for (moved, by) in corrected.zip(&*workspace.column) {
+            *moved += part * by;
+        }
+        (part, near)
     }
 
     /// Whether the residual of a row that the correction in `workspace.column` did not remove is round-off of its evaluation: along this

@@ -1,14 +1,14 @@
-//! The law of contact: what presses, and Coulomb friction. Guided contacts and unilateral contacts both obey it, and ask it here.
+//! The law of contact: normal forces and Coulomb friction, for guided contacts and unilateral contacts alike.
 //!
 //! ```text
 //! unilateral contact   0 ≤ Λₙ ⊥ γₙ ≥ 0                   presses with Λₙ
 //! guided contact       N = N⁺ − N⁻,  0 ≤ N⁺ ⊥ N⁻ ≥ 0     presses with |N| = N⁺ + N⁻
-//! friction of both     −Λₜ ∈ μ · (what presses) · Sgn γₜ
+//! friction of both     −Λₜ ∈ μ · (normal force) · Sgn γₜ
 //! ```
 //!
 //! A guide is a pair of opposite unilateral contacts without play, of which at most one presses. In the plane all of this is a linear
 //! complementarity problem (`problem`), which is solved by pivoting (`lcp`); in space, where friction has two directions, it is a problem on
-//! cones (`cone`). Forces that rigid bodies leave undetermined are shared as `shares` says, whichever contacts they act in.
+//! cones (`cone`). Forces that rigid bodies leave undetermined are distributed by the rule of `shares`, for contacts of either kind.
 
 #[cfg(feature = "std")]
 mod cone;

@@ -87,60 +87,15 @@ struct Worst {
 }
 
 /// Returns `None` if there is nothing to check: no accelerations, or none that are finite.
-fn worst<S: System>(system: &S, At { t, q, v, u }: At<'_, S>) -> Option<Worst> {
-    let n = q.as_slice().len();
-    let (m, k) = (system.constraints().len(), system.contacts().len());
-    let mut a = q.zeros_like();
-    let mut multipliers = vec![0.0; m];
-    let mut contacts = vec![ContactForce::default(); k];
-    solve(
-        system,
-        At { t, q, v, u },
-        &mut a,
-        &mut multipliers,
-        &mut contacts,
-    )?;
-
-    let mut mass = S::Matrix::zeros(n * n);
-    system.mass_matrix(t, q, &mut mass);
-    let mass = mass.as_slice();
-    let [mut forces, mut applied, mut bias] = q.several_zeros_like();
-    system.forces(t, q, v, u, &mut forces);
-    system.applied(t, q, v, u, &mut applied);
-    system.bias(t, q, v, &mut bias);
-    let (mut matrix, mut constraint_bias) = (vec![0.0; m * n], vec![0.0; m]);
-    system.constraint_matrix(t, q, &mut matrix);
-    system.constraint_bias(t, q, v, &mut constraint_bias);
-    let mut slips = vec![0.0; k * n];
-    system.slip_matrix(t, q, &mut slips);
-
-    // Forces with the sizes of their terms.
-    let sizes = [applied.as_slice(), bias.as_slice()];
-    let mut right: Vec<f64> = forces.as_slice().to_vec();
-    let mut size: Vec<f64> = (0..n)
-        .map(|i| right[i].abs() + sizes[0][i].abs() + sizes[1][i].abs())
-        .collect();
-    let rows = matrix.chunks_exact(n).zip(&multipliers);
-    let friction_forces = contacts.iter().map(|contact| &contact.friction);
-    for (row, force) in rows.chain(slips.chunks_exact(n).zip(friction_forces)) {
-        for i in 0..n {
-            right[i] += row[i] * force;
-            size[i] += (row[i] * force).abs();
-        }
-    }
-    let a = a.as_slice();
-    let inertia: Vec<f64> = (0..n).map(|i| sqrt(mass[i * n + i].max(0.0))).collect();
-    let spread: f64 = (0..n)
-        .map(|j| {
-            if inertia[j] > 0.0 {
-                inertia[j] * a[j].abs() + size[j] / inertia[j]
-            } else {
-                0.0
-            }
-        })
-        .sum();
-
-    let [of_mass, of_constraints] = conditions(mass, &inertia, &matrix);
+fn worst<S: System>(system: &S, at: At<'_, S>) -> Option<Worst> {
+    let equations = Equations::at(system, at)?;
+    let n = equations.inertia.len();
+    let m = equations.constraint_bias.len();
+    let [of_mass, of_constraints] = conditions(
+        equations.mass.as_slice(),
+        &equations.inertia,
+        &equations.matrix,
+    );
     let tolerance = TOLERANCE * (n + m) as f64 * of_constraints;
     let mut worst = Worst {
         row: String::new(),
@@ -151,7 +106,13 @@ fn worst<S: System>(system: &S, At { t, q, v, u }: At<'_, S>) -> Option<Worst> {
         tolerance,
     };
     let mut is_finite = tolerance.is_finite();
-    let mut take = |index: usize, is_constraint: bool, residual: f64, terms: f64, weight: f64| {
+    let coordinates = (0..n).map(|i| (i, false));
+    for (index, is_constraint) in coordinates.chain((0..m).map(|k| (k, true))) {
+        let (Row { residual, terms }, weight) = if is_constraint {
+            (equations.of_constraint(index), of_mass)
+        } else {
+            (equations.of_coordinate(index), 1.0)
+        };
         is_finite &= residual.is_finite() && terms.is_finite();
         let share = if residual == 0.0 {
             0.0
@@ -174,26 +135,124 @@ fn worst<S: System>(system: &S, At { t, q, v, u }: At<'_, S>) -> Option<Worst> {
                 tolerance,
             };
         }
-    };
-    for i in 0..n {
-        let row = mass[i * n..][..n].iter().zip(a);
-        let left: f64 = row.clone().map(|(m, a)| m * a).sum();
-        let own: f64 = row.map(|(m, a)| (m * a).abs()).sum();
-        let terms = own + size[i] + inertia[i] * spread;
-        take(i, false, left - right[i], terms, 1.0);
-    }
-    for (k, row) in matrix.chunks_exact(n).enumerate() {
-        let left: f64 = row.iter().zip(a).map(|(g, a)| g * a).sum();
-        let mut terms = constraint_bias[k].abs();
-        for j in 0..n {
-            terms += (row[j] * a[j]).abs();
-            if inertia[j] > 0.0 {
-                terms += (row[j] / inertia[j]).abs() * spread;
-            }
-        }
-        take(k, true, left - constraint_bias[k], terms, of_mass);
     }
     is_finite.then_some(worst)
+}
+
+/// The equations of motion at a state, with the accelerations that are to satisfy them.
+struct Equations<S: System> {
+    a: S::Vector,
+    mass: S::Matrix,
+    /// `f + Gᵀ λ + τᵀ F`, and the sizes of its terms.
+    right: Vec<f64>,
+    right_sizes: Vec<f64>,
+    /// `G` and `γ`.
+    matrix: Vec<f64>,
+    constraint_bias: Vec<f64>,
+    /// `√Mᵢᵢ`.
+    inertia: Vec<f64>,
+    /// `Σⱼ √Mⱼⱼ |aⱼ| + |fⱼ|/√Mⱼⱼ`, by which rows round off in one another.
+    spread: f64,
+}
+
+/// A row of the equations of motion: left side minus right side, and the size of its terms.
+struct Row {
+    residual: f64,
+    terms: f64,
+}
+
+impl<S: System> Equations<S> {
+    /// Returns `None` if there are no accelerations.
+    fn at(system: &S, At { t, q, v, u }: At<'_, S>) -> Option<Self> {
+        let n = q.as_slice().len();
+        let (m, k) = (system.constraints().len(), system.contacts().len());
+        let mut a = q.zeros_like();
+        let mut multipliers = vec![0.0; m];
+        let mut contacts = vec![ContactForce::default(); k];
+        solve(
+            system,
+            At { t, q, v, u },
+            &mut a,
+            &mut multipliers,
+            &mut contacts,
+        )?;
+
+        let mut mass = S::Matrix::zeros(n * n);
+        system.mass_matrix(t, q, &mut mass);
+        let [mut forces, mut applied, mut bias] = q.several_zeros_like();
+        system.forces(t, q, v, u, &mut forces);
+        system.applied(t, q, v, u, &mut applied);
+        system.bias(t, q, v, &mut bias);
+        let (mut matrix, mut constraint_bias) = (vec![0.0; m * n], vec![0.0; m]);
+        system.constraint_matrix(t, q, &mut matrix);
+        system.constraint_bias(t, q, v, &mut constraint_bias);
+        let mut slips = vec![0.0; k * n];
+        system.slip_matrix(t, q, &mut slips);
+
+        let sizes = [applied.as_slice(), bias.as_slice()];
+        let mut right: Vec<f64> = forces.as_slice().to_vec();
+        let mut right_sizes: Vec<f64> = (0..n)
+            .map(|i| right[i].abs() + sizes[0][i].abs() + sizes[1][i].abs())
+            .collect();
+        let rows = matrix.chunks_exact(n).zip(&multipliers);
+        let friction_forces = contacts.iter().map(|contact| &contact.friction);
+        for (row, force) in rows.chain(slips.chunks_exact(n).zip(friction_forces)) {
+            for i in 0..n {
+                right[i] += row[i] * force;
+                right_sizes[i] += (row[i] * force).abs();
+            }
+        }
+        let diagonal = |i: usize| mass.as_slice()[i * n + i];
+        let inertia: Vec<f64> = (0..n).map(|i| sqrt(diagonal(i).max(0.0))).collect();
+        let of_coordinate = |j: usize| {
+            if inertia[j] > 0.0 {
+                inertia[j] * a.as_slice()[j].abs() + right_sizes[j] / inertia[j]
+            } else {
+                0.0
+            }
+        };
+        let spread = (0..n).map(of_coordinate).sum();
+        Some(Self {
+            a,
+            mass,
+            right,
+            right_sizes,
+            matrix,
+            constraint_bias,
+            inertia,
+            spread,
+        })
+    }
+
+    /// Row `i` of `M a = f + Gᵀ λ + τᵀ F`.
+    fn of_coordinate(&self, i: usize) -> Row {
+        let (n, mass) = (self.inertia.len(), self.mass.as_slice());
+        let row = mass[i * n..][..n].iter().zip(self.a.as_slice());
+        let left: f64 = row.clone().map(|(m, a)| m * a).sum();
+        let own: f64 = row.map(|(m, a)| (m * a).abs()).sum();
+        Row {
+            residual: left - self.right[i],
+            terms: own + self.right_sizes[i] + self.inertia[i] * self.spread,
+        }
+    }
+
+    /// Row `k` of `G a = γ`.
+    fn of_constraint(&self, k: usize) -> Row {
+        let (n, a) = (self.inertia.len(), self.a.as_slice());
+        let row = &self.matrix[k * n..][..n];
+        let left: f64 = row.iter().zip(a).map(|(g, a)| g * a).sum();
+        let mut terms = self.constraint_bias[k].abs();
+        for j in 0..n {
+            terms += (row[j] * a[j]).abs();
+            if self.inertia[j] > 0.0 {
+                terms += (row[j] / self.inertia[j]).abs() * self.spread;
+            }
+        }
+        Row {
+            residual: left - self.constraint_bias[k],
+            terms,
+        }
+    }
 }
 
 /// Accelerations, multipliers and friction forces, as a run finds them.

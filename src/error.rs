@@ -11,7 +11,7 @@ pub use warning::Warning;
 
 use std::string::{String, ToString};
 
-use crate::{ContactTrouble, Pivot, Quantity, StepError, System};
+use crate::{ContactTrouble, Pivot, Quantity, Singular, StepError, System};
 
 /// Why a run could not begin or continue.
 #[derive(Clone, Debug, PartialEq)]
@@ -340,38 +340,7 @@ impl Error {
                 coordinate: name(coordinate),
                 t,
             },
-            StepError::Singular { singular, t } => {
-                let name = singular.name(system).into();
-                // 0/0: nothing is left of an element that was 0.
-                let ratio = if singular.ratio.is_nan() {
-                    0.0
-                } else {
-                    singular.ratio
-                };
-                match singular.at {
-                    Pivot::Coordinate(_) => Self::SingularMassMatrix {
-                        coordinate: name,
-                        ratio,
-                        t,
-                    },
-                    Pivot::Constraint(_) => Self::DependentConstraint {
-                        constraint: name,
-                        ratio,
-                        t,
-                    },
-                    Pivot::Contact(_) => Self::FrictionParadox {
-                        contact: name,
-                        several: ratio > 0.0,
-                        t,
-                        q: std::vec::Vec::new(),
-                        v: std::vec::Vec::new(),
-                    },
-                    Pivot::NoWorkspace => Self::NoWorkspaceForContacts { t },
-                    Pivot::NotDifferentiated(_) => {
-                        Self::ContactsNotDifferentiated { contact: name, t }
-                    }
-                }
-            }
+            StepError::Singular { singular, t } => Self::of_singular(singular, system, t),
             StepError::Inconsistent {
                 constraint,
                 residual,
@@ -434,6 +403,38 @@ impl Error {
                 step,
                 t,
             },
+        }
+    }
+
+    /// Converts equations of motion that cannot be solved.
+    fn of_singular<S: System>(singular: Singular, system: &S, t: f64) -> Self {
+        let name = singular.name(system).into();
+        // 0/0: nothing is left of an element that was 0.
+        let ratio = if singular.ratio.is_nan() {
+            0.0
+        } else {
+            singular.ratio
+        };
+        match singular.at {
+            Pivot::Coordinate(_) => Self::SingularMassMatrix {
+                coordinate: name,
+                ratio,
+                t,
+            },
+            Pivot::Constraint(_) => Self::DependentConstraint {
+                constraint: name,
+                ratio,
+                t,
+            },
+            Pivot::Contact(_) => Self::FrictionParadox {
+                contact: name,
+                several: ratio > 0.0,
+                t,
+                q: std::vec::Vec::new(),
+                v: std::vec::Vec::new(),
+            },
+            Pivot::NoWorkspace => Self::NoWorkspaceForContacts { t },
+            Pivot::NotDifferentiated(_) => Self::ContactsNotDifferentiated { contact: name, t },
         }
     }
 }

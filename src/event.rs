@@ -16,9 +16,10 @@
 //! Where contacts change, rates and forces jump, and a function may be 0 exactly there: a height that an impact turns around. Whether it is 0 is decided
 //! within the rounding that the contacts themselves allow for gaps and rates at rest. If it is, its sign just after that instant decides: a function
 //! with the same sign on both sides touches zero and has no event, one with the other sign, or that stays at zero, has one event at that instant. A
-//! function that jumps over zero has one, too. A step of time stepping in which contacts close counts like such an instant: only its ends are looked at,
+//! function that jumps over zero has one, too. A step of time stepping in which contacts close counts like such an instant: only the values at its ends are compared,
 //! since impacts are not located within it.
 
+mod followed;
 mod last_step;
 mod root;
 
@@ -33,6 +34,7 @@ use crate::observation::ObservedSystem;
 use crate::roots;
 use crate::stepper::Stepper;
 use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
+use followed::{Change, FollowedSign, sign};
 
 pub(crate) use last_step::{
     Triple, at_fractions, interpolated_at, is_long, state, state_at, state_into, step_motion,
@@ -42,9 +44,6 @@ pub(crate) use root::{last_positive, root};
 
 /// Fractions of a step at which the sign is evaluated if it changes at most once.
 pub(crate) const SAMPLE_FRACTIONS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
-
-/// A function that is zero for at most this fraction of a step and has the same sign on both sides only touches zero.
-const TOUCH: f64 = 1e-6;
 
 /// Rounding allowance at the start of a run: for the time of the event from which it continues, for the step that ended there, and for a function
 /// of some ten operations.
@@ -391,16 +390,11 @@ impl<M: Machine> Watch<'_, M> {
         roundoff: f64,
         ending: Option<f64>,
         mut value_at: impl FnMut(&mut Self, f64) -> Result<f64, Error>,
-        mut found: impl FnMut(&mut Self, f64, f64) -> Result<(), Error>,
+        mut found: impl FnMut(&mut Self, Change) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let mut side = self.side;
-        let mut leave = self.leave;
-        let mut touched = core::mem::take(&mut self.touched);
-        let mut theta_before = 0.0;
-        // Where it has become zero, and how long it was so: that may be a touch.
-        let mut zeros: Option<[f64; 3]> = None;
+        let mut sign = FollowedSign::new(self.side, self.touched, self.leave);
         // Where it starts from zero, it may leave it and be back long before a quarter of the step.
-        let least = if side == 0.0 && !is_known_at_end {
+        let least = if sign.side == 0.0 && !is_known_at_end {
             16.0 * roundoff
         } else {
             looks[0]
@@ -409,63 +403,85 @@ impl<M: Machine> Watch<'_, M> {
         let small = small.take_while(|theta| *theta < looks[0]);
         for theta in small.chain(looks.iter().copied()) {
             let value = value_at(self, theta)?;
-            let now = if side == 0.0 && value.abs() <= leave {
-                0.0
-            } else {
-                leave = 0.0;
-                sign(value)
-            };
-            if touched != 0.0 && now != 0.0 {
-                // It was zero where contacts changed just before the step.
-                if now != touched {
-                    self.side = touched;
-                    found(self, 0.0, 0.0)?;
-                }
-                touched = 0.0;
-            }
-            if let Some([before, first, last]) = zeros {
-                if now == 0.0 && theta - first <= TOUCH {
-                    zeros = Some([before, first, theta]);
-                } else {
-                    zeros = None;
-                    if now != side || last - first > TOUCH {
-                        self.side = side;
-                        found(self, before, first)?;
-                        side = now;
-                    }
-                }
-            } else if side != 0.0 && now == 0.0 {
-                zeros = Some([theta_before, theta, theta]);
-            } else {
-                if side != 0.0 && now != side {
-                    self.side = side;
-                    found(self, theta_before, theta)?;
-                }
-                side = now;
-            }
-            theta_before = theta;
+            sign.look(theta, value, |change| found(self, change))?;
         }
-        if touched != 0.0 && is_known_at_end && ending.is_some() {
-            // It is evaluated at the ends of steps only, and may leave zero in the next step.
-            (self.touched, leave) = (touched, ending.unwrap_or(leave));
-        } else if touched != 0.0 {
-            // It stays at zero.
-            self.side = touched;
-            found(self, 0.0, 0.0)?;
-        }
-        if let Some([before, first, _]) = zeros {
-            match ending {
-                // What it does from there on is not known yet.
-                Some(to_leave) => (self.touched, leave) = (side, to_leave),
-                None => {
-                    self.side = side;
-                    found(self, before, first)?;
-                }
-            }
-            side = 0.0;
-        }
-        (self.side, self.leave) = (side, leave);
+        sign.end(ending, is_known_at_end, |change| found(self, change))?;
+        (self.side, self.touched, self.leave) = (sign.side, sign.touched, sign.leave);
         Ok(())
+    }
+
+    /// Whether and where to look for events in the last step, and what the function must exceed before its sign counts again if it is zero to
+    /// rounding at the end of the step; `None` if there is no event. `sampled` are the states at the [fractions](roots::FRACTIONS) of the step,
+    /// once a function has needed them.
+    fn suspect<L: InputLaw<M::System>, A: Quadratures<M::System>>(
+        &mut self,
+        (end, is_long): (EndOfStep, bool),
+        observed_system: &ObservedSystem<'_, M::System, L>,
+        stepper: &mut StepperOf<'_, M, L, A>,
+        interpolant: &mut Option<Interpolant<VectorOf<M>>>,
+        sampled: &mut Option<[State<Coordinates<M>>; roots::FRACTIONS.len()]>,
+    ) -> Result<Option<(Places, Option<f64>)>, Error> {
+        if !self.begun {
+            self.settle(observed_system, stepper)?;
+        }
+        let known = self.latest.take();
+        self.at_end = f64::NAN;
+        if is_long {
+            let may_end_at_zero = end != EndOfStep::Smooth;
+            let ending = may_end_at_zero.then(|| self.zero_at_end(observed_system, stepper));
+            return Ok(Some((Places::All, ending.transpose()?.flatten())));
+        }
+        let system = observed_system.system;
+        let states = match sampled {
+            Some(states) => states,
+            None => {
+                let all = at_fractions(system, stepper, interpolant)?;
+                sampled.insert(all.map(|at| state(system, at)))
+            }
+        };
+        self.look_at_fractions((states, known), end, observed_system, stepper)
+    }
+
+    /// Looks exactly where there may be events of the last step, and tells the fraction of each that it `found`, with the sign before it.
+    fn locate<L: InputLaw<M::System>, A: Quadratures<M::System>>(
+        &mut self,
+        (places, ending): (Places, Option<f64>),
+        end: EndOfStep,
+        observed_system: &ObservedSystem<'_, M::System, L>,
+        stepper: &StepperOf<'_, M, L, A>,
+        interpolant: &Interpolant<VectorOf<M>>,
+        mut found: impl FnMut(f64, f64),
+    ) -> Result<(), Error> {
+        let system = observed_system.system;
+        let roundoff = theta_roundoff(stepper);
+        let exact = |watch: &mut Self, theta: f64| {
+            if theta == 1.0 && ending.is_some() {
+                return Ok(0.0);
+            }
+            let at = state_at(system, stepper, interpolant, theta)?;
+            let value = watch.value_in_step(&state(system, at), observed_system, stepper)?;
+            if theta == 1.0 {
+                watch.at_end = value;
+            }
+            Ok(value)
+        };
+        let is_known_at_end = end == EndOfStep::Impacts;
+        let looks: &[f64] = match places {
+            _ if is_known_at_end => &[1.0],
+            Places::All => &roots::isolating_fractions(|theta| exact(self, theta))?,
+            Places::Few => &SAMPLE_FRACTIONS,
+        };
+        let looks = (looks, is_known_at_end);
+        self.changes(looks, roundoff, ending, exact, |watch, change| {
+            let [from, to] = change.between;
+            let theta = if from == to {
+                from
+            } else {
+                root([from, to], roundoff, &mut |theta| exact(watch, theta))?
+            };
+            found(theta, change.side_before);
+            Ok(())
+        })
     }
 
     /// The function's value at a state of the last step.
@@ -523,7 +539,7 @@ impl<M: Machine> Watch<'_, M> {
                 watch.value_in_step(&at, observed_system, stepper)
             };
             let looks = (&SAMPLE_FRACTIONS[..], false);
-            self.changes(looks, theta_roundoff(stepper), None, look, |_, _, _| {
+            self.changes(looks, theta_roundoff(stepper), None, look, |_, _| {
                 suspected = true;
                 Ok(())
             })?;
@@ -579,68 +595,30 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
 ) -> Result<Option<Terminal>, Error> {
     let system = observed_system.system;
     let mut found = Vec::new();
-    let roundoff = theta_roundoff(stepper);
-    let is_series = stepper.coefficients().is_some();
-    let is_long = !watches.is_empty() && is_long(system, stepper);
+    let is_long =
+        stepper.coefficients().is_some() || !watches.is_empty() && is_long(system, stepper);
     let mut sampled = None;
     for (index, watch) in watches.iter_mut().enumerate() {
-        if !watch.begun {
-            watch.settle(observed_system, stepper)?;
-        }
-        let known = watch.latest.take();
-        watch.at_end = f64::NAN;
-        let (places, ending) = if is_series || is_long {
-            let may_end_at_zero = end != EndOfStep::Smooth;
-            let ending = may_end_at_zero.then(|| watch.zero_at_end(observed_system, stepper));
-            (Places::All, ending.transpose()?.flatten())
-        } else {
-            let states = match &sampled {
-                Some(states) => states,
-                None => {
-                    let all = at_fractions(system, stepper, interpolant)?;
-                    &*sampled.insert(all.map(|at| state(system, at)))
-                }
-            };
-            match watch.look_at_fractions((states, known), end, observed_system, stepper)? {
-                Some(seen) => seen,
-                None => continue,
-            }
+        let step = (end, is_long);
+        let seen = watch.suspect(step, observed_system, stepper, interpolant, &mut sampled)?;
+        let Some(seen) = seen else {
+            continue;
         };
-
-        // There may be something: look again, exactly.
-        let interpolant = step_motion(interpolant, stepper, system)?;
-        let exact = |watch: &mut Watch<'_, M>, theta: f64| {
-            if theta == 1.0 && ending.is_some() {
-                return Ok(0.0);
-            }
-            let at = state_at(system, stepper, interpolant, theta)?;
-            let value = watch.value_in_step(&state(system, at), observed_system, stepper)?;
-            if theta == 1.0 {
-                watch.at_end = value;
-            }
-            Ok(value)
-        };
-        let is_known_at_end = end == EndOfStep::Impacts;
-        let looks: &[f64] = match places {
-            _ if is_known_at_end => &[1.0],
-            Places::All => &roots::isolating_fractions(|theta| exact(watch, theta))?,
-            Places::Few => &SAMPLE_FRACTIONS,
-        };
-        let looks = (looks, is_known_at_end);
-        watch.changes(looks, roundoff, ending, exact, |watch, from, to| {
-            let side_before = watch.side;
-            let theta = if from == to {
-                from
-            } else {
-                root([from, to], roundoff, &mut |theta| exact(watch, theta))?
-            };
-            found.push(SignChange {
-                watch: index,
-                theta,
-                side_before,
-            });
-            Ok(())
-        })?;
+        let motion = step_motion(interpolant, stepper, system)?;
+        watch.locate(
+            seen,
+            end,
+            observed_system,
+            stepper,
+            motion,
+            |theta, side_before| {
+                found.push(SignChange {
+                    watch: index,
+                    theta,
+                    side_before,
+                });
+            },
+        )?;
     }
     found.sort_by(|one, other| one.theta.total_cmp(&other.theta));
     report(
@@ -772,7 +750,3 @@ pub(crate) fn may_be_zero_after(value: f64, before: f64, is_at_zero: bool) -> bo
 /// The stepper of a run.
 type StepperOf<'s, M, L, A> =
     Stepper<'s, <M as Machine>::System, LawInPiece<'s, L, crate::Inputs<M>>, A>;
-
-fn sign(x: f64) -> f64 {
-    if x == 0.0 { 0.0 } else { x.signum() }
-}

@@ -423,24 +423,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         }
         let ends = [&*before, &*now];
         let estimates = attempt::errors::<R, N, V>(method, h, ends, k, (tolerance, &are_first));
-        // If the state has overflowed, the error estimate is meaningless.
-        let are_numbers = attempt::are_finite(&now.q, &now.v);
-        let errors = N::each(|lane| {
-            let error = estimates.as_ref()[lane];
-            if error.is_finite() && are_numbers.as_ref()[lane] {
-                error
-            } else {
-                // The step is rejected.
-                f64::INFINITY
-            }
-        });
-        for (lane, failed) in failed.as_mut().iter_mut().enumerate() {
-            let is_beyond = trying.as_ref()[lane] && errors.as_ref()[lane] == f64::INFINITY;
-            if is_beyond && let Some(coordinate) = not_finite(&now.q, &now.v, lane) {
-                let t = now.t.rounded().as_ref()[lane];
-                *failed = Some(StepError::NotFinite { coordinate, t });
-            }
-        }
+        let errors = judged(&estimates, now, &trying, failed);
         let mut good = N::each(|lane| trying.as_ref()[lane] && errors.as_ref()[lane] <= 1.0);
         if !scheme.error_needs_end && good.as_ref().contains(&true) {
             select(&good, now, before);
@@ -610,6 +593,33 @@ fn evaluate_counted<R, V>(
     if none.is_some() || !are_all_finite::<R>(a.as_slice()) {
         reject(none, at.0, a, trying, failed);
     }
+}
+
+/// The errors of tries with these estimates: infinite where the state has overflowed, so that the estimate means nothing and the step is rejected.
+#[inline(always)]
+fn judged<N: StepNumber, V: Vector<N>>(
+    estimates: &N::Each<f64>,
+    now: &Point<V, N>,
+    trying: &N::Each<bool>,
+    failed: &mut N::Each<Option<StepError>>,
+) -> N::Each<f64> {
+    let are_numbers = attempt::are_finite(&now.q, &now.v);
+    let errors = N::each(|lane| {
+        let error = estimates.as_ref()[lane];
+        if error.is_finite() && are_numbers.as_ref()[lane] {
+            error
+        } else {
+            f64::INFINITY
+        }
+    });
+    for (lane, failed) in failed.as_mut().iter_mut().enumerate() {
+        let is_beyond = trying.as_ref()[lane] && errors.as_ref()[lane] == f64::INFINITY;
+        if is_beyond && let Some(coordinate) = not_finite(&now.q, &now.v, lane) {
+            let t = now.t.rounded().as_ref()[lane];
+            *failed = Some(StepError::NotFinite { coordinate, t });
+        }
+    }
+    errors
 }
 
 /// One value for each trajectory in a register.

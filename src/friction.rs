@@ -28,8 +28,8 @@
 //! The states of all contacts have to be determined together. This is done only when a contact comes to rest, breaks away, or changes
 //! the side on which it presses. In the plane this is a linear complementarity problem, that of pairs of opposite unilateral contacts
 //! ([`contact_law`](crate::contact_law); F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6). Contacts
-//! that do not depend on each other are asked apart. If it is not proved that there is one solution (E80), all combinations are
-//! examined, if these are not too many, which shows whether there is.
+//! that do not depend on each other are solved for separately. If it is not proved that there is only one solution (E80), all combinations are
+//! examined, unless there are too many, which shows whether there is only one.
 //! In between, the states are kept: the motion is smooth, and sticking contacts are held at `w = 0` itself. In the plane contacts that stick
 //! and depend on each other hold as long as any distribution of their forces permits it (`shares`); then they break away together.
 
@@ -616,6 +616,43 @@ impl Contacts {
             self.record_headings(system, t, q, v[0]);
             return Ok(true);
         }
+        let resting = self.resting_at_change(&now, change);
+        let [v, v_low] = v;
+        self.stop_contacts(system, (t, q, u), [&mut *v, v_low], &resting)?;
+        let at = At { t, q, v, u };
+        let LeavingContacts {
+            motion,
+            mut slip_direction,
+            together,
+        } = self.leaving(system, at, (&now, &resting, change))?;
+        let own = (k, self.mode.motion[k]);
+        // A contact that has come to rest may continue in any direction.
+        for k in 0..self.count {
+            if motion[k].is_none() {
+                slip_direction[k] = 0.0;
+            }
+        }
+        let open_states = OpenStates {
+            motion,
+            slip_direction,
+            excluded: match change.cause {
+                Cause::BrokeAway | Cause::Veered => None,
+                // It may continue in another direction.
+                Cause::Stopped if own.1 == Motion::SlidesAlong => None,
+                Cause::Turned => Some((own.0, own.1, Some(self.mode.press[k]))),
+                // It did not even begin to slide in this direction.
+                Cause::Stopped if is_at_once => Some((own.0, own.1, None)),
+                Cause::Stopped => None,
+            },
+            turned: (change.cause == Cause::Turned).then_some((own.0, own.1, -self.mode.press[k])),
+        };
+        self.mode = self.decided(system, at, &open_states, &together)?;
+        Ok(false)
+    }
+
+    /// Which contacts rest where the state of one has ended.
+    #[cfg(feature = "std")]
+    fn resting_at_change(&self, now: &Each, change: Change) -> PerContact<bool> {
         let mut resting = PerContact::new(self.count, false);
         for (k, rests) in resting.iter_mut().enumerate() {
             *rests = match self.mode.motion[k] {
@@ -629,24 +666,32 @@ impl Contacts {
             .filter(|k| self.mode.motion[*k] == Motion::SlidesAlong);
         for k in sliding {
             let stops = change.cause == Cause::Stopped && change.contact == k;
-            let rests = stops || self.is_slow(k, &now);
+            let rests = stops || self.is_slow(k, now);
             (resting[k], resting[k + 1]) = (rests, rests);
         }
-        resting[k] |= change.cause == Cause::Stopped;
-        let [v, v_low] = v;
-        self.stop_contacts(system, (t, q, u), [&mut *v, v_low], &resting)?;
+        resting[change.contact] |= change.cause == Cause::Stopped;
+        resting
+    }
+
+    /// How contacts that do not rest move where the state of one has ended: what sticks and breaks away begins to slide.
+    #[cfg(feature = "std")]
+    fn leaving<S: System>(
+        &self,
+        system: &S,
+        At { t, q, v, u }: At<'_, S>,
+        (now, resting, change): (&Each, &[bool], Change),
+    ) -> Result<LeavingContacts, StepError> {
+        let k = change.contact;
         let mut motion =
             PerContact::from_fn(self.count, |k| (!resting[k]).then_some(self.mode.motion[k]));
-        let own = (k, self.mode.motion[k]);
         // These contacts break away together.
         let mut together = PerContact::new(self.count, false);
-        let mut slip_direction = self.mode_of(&now).slip_direction;
-        let at = |singular| StepError::Singular { singular, t };
+        let mut slip_direction = self.mode_of(now).slip_direction;
         if change.cause == Cause::BrokeAway {
             let held = with_parts(system, t, q, v, u, |parts, _| {
                 parts.shared_forces(&self.mode).map_err(Paradox::singular)
             });
-            let (held, shared) = held.map_err(at)?;
+            let (held, shared) = held.map_err(|singular| StepError::Singular { singular, t })?;
             // What depends on others breaks away with those that limit what all of them can hold.
             let breaks = |j: usize| match shared.limit[j] {
                 Some(Limit::Friction([direction, _])) if shared.group[j] == shared.group[k] => {
@@ -678,26 +723,22 @@ impl Contacts {
                 }
             }
         }
-        // A contact that has come to rest may continue in any direction.
-        for k in 0..self.count {
-            if motion[k].is_none() {
-                slip_direction[k] = 0.0;
-            }
-        }
-        let open_states = OpenStates {
+        Ok(LeavingContacts {
             motion,
             slip_direction,
-            excluded: match change.cause {
-                Cause::BrokeAway | Cause::Veered => None,
-                // It may continue in another direction.
-                Cause::Stopped if own.1 == Motion::SlidesAlong => None,
-                Cause::Turned => Some((own.0, own.1, Some(self.mode.press[k]))),
-                // It did not even begin to slide in this direction.
-                Cause::Stopped if is_at_once => Some((own.0, own.1, None)),
-                Cause::Stopped => None,
-            },
-            turned: (change.cause == Cause::Turned).then_some((own.0, own.1, -self.mode.press[k])),
-        };
+            together,
+        })
+    }
+
+    /// The states that are possible, of those in question. If there are none, those that break away `together` may stick.
+    #[cfg(feature = "std")]
+    fn decided<S: System>(
+        &self,
+        system: &S,
+        At { t, q, v, u }: At<'_, S>,
+        open_states: &OpenStates,
+        together: &[bool],
+    ) -> Result<Mode, StepError> {
         let decided = with_parts(system, t, q, v, u, |parts, _| {
             let mut answer = open_states.answer(parts);
             if answer.is_err() && together.contains(&true) {
@@ -711,8 +752,8 @@ impl Contacts {
             }
             answer.map_err(Paradox::singular)
         });
-        (self.mode, _) = decided.map_err(at)?;
-        Ok(false)
+        let (mode, _) = decided.map_err(|singular| StepError::Singular { singular, t })?;
+        Ok(mode)
     }
 
     /// Whether a sliding contact whose slip has become perpendicular to its direction at the beginning of the step has come to rest:
@@ -750,6 +791,14 @@ impl Contacts {
             && self.mode.motion[change.contact] == Motion::SlidesAlong
             && !self.is_slow(change.contact, &slips(system, t, q, v))
     }
+}
+
+/// Contacts that move on where the state of one has ended: how each moves if that is known, in which direction, and which of them break away together.
+#[cfg(feature = "std")]
+struct LeavingContacts {
+    motion: PerContact<Option<Motion>>,
+    slip_direction: Each,
+    together: PerContact<bool>,
 }
 
 fn friction_forces(parts: &Parts<'_>, mode: &Mode) -> Result<Each, Singular> {

@@ -34,9 +34,13 @@ mod implicit;
 mod inputs;
 mod interpolant;
 mod lanes;
+mod linearize;
 mod math;
 pub mod methods;
+mod quantity;
+mod sentences;
 mod series_memory;
+mod singular;
 mod stages;
 mod step_error;
 mod step_number;
@@ -109,15 +113,15 @@ pub use inputs::AnyInputs;
 pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw, InputLawIn};
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
+pub use linearize::{Differentiate, Linearize};
 pub use methods::{FIXED_STEP_METHODS, METHODS, MOREAU, Method, RADAU_OF_HIGH_ORDER, TAYLOR};
 pub use piece::{NoPiece, Piece};
+pub use quantity::{Assumption, Constraint, Quantity, State};
+pub use singular::{Pivot, Singular};
 pub use step_error::StepError;
 pub use step_number::{Real, StepNumber};
 pub use stepper::{ControlledStepper, Stepper, StepperBuilder};
-pub use system::{
-    Assumption, Constraint, Coordinates, Differentiate, Inputs, Linearize, MOST_CONTACTS, Machine,
-    Outputs, Pivot, Quantity, Singular, Staged, State, System,
-};
+pub use system::{Coordinates, Inputs, MOST_CONTACTS, Machine, Outputs, Staged, System};
 pub use system_in::{MachineIn, SystemIn};
 pub use tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 pub use unilateral::{

@@ -114,6 +114,8 @@ pub enum PhaseCause {
     Breaks(usize),
     /// A compliant contact began to press.
     Presses(usize),
+    /// The reaction of a guide changed its sign.
+    Switches(usize),
     /// A layer turned from loading to unloading, or came back to its greatest depth.
     Turns(usize),
     /// A step of time stepping.
@@ -144,6 +146,7 @@ impl<V> Phase<V> {
                 Some(Cause::Stops(k)) => PhaseCause::Stops(k),
                 Some(Cause::Breaks(k, _)) => PhaseCause::Breaks(k),
                 Some(Cause::Presses(k)) => PhaseCause::Presses(k),
+                Some(Cause::Switches(k)) => PhaseCause::Switches(k),
                 Some(Cause::Turns(k)) => PhaseCause::Turns(k),
                 None => PhaseCause::Stepped,
             },

@@ -165,8 +165,9 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         };
         let has_contacts = system.unilateral_contacts().len() != 0;
         let chosen = (settings.automatic).then(|| match has_contacts {
-            true => Beginning::with_contacts(&system, inputs_stay),
-            false => choosing::first(&system, at, &tolerance, (ahead, inputs_stay)),
+            _ if !inputs_stay => Beginning::explicit(),
+            true => Beginning::with_contacts(&system, settings.one_of),
+            false => choosing::first(&system, at, &tolerance, (ahead, settings.one_of)),
         });
         if let Some(beginning) = chosen {
             settings.method = beginning.method;
@@ -234,7 +235,15 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 t: start.t,
             });
         }
-        let begun = |method| {
+        let has_contacts = system.unilateral_contacts().len() != 0;
+        let flies_by_series = has_contacts && settings.method.kind == MethodKind::Series;
+        let begun = |mut method: &'static Method| {
+            if flies_by_series {
+                // Whether it begins with a flight is known once contacts are resolved.
+                let law = &model.observed_system.law;
+                Stepper::<_, _, Option<EnergyIntegrals>>::check_series(system, law, start.t)?;
+                method = explicit_for(method);
+            }
             let stepper = Stepper::begun(
                 BorrowedOrOwned::Borrowed(system),
                 model.observed_system.law.clone(),
@@ -246,23 +255,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             );
             stepper.map(Box::new)
         };
-        let has_contacts = system.unilateral_contacts().len() != 0;
-        let flies_by_series = has_contacts && settings.method.kind == MethodKind::Series;
-        let mut begun_by = if flies_by_series {
-            // Whether it begins with a flight is known once contacts are resolved.
-            let law = &model.observed_system.law;
-            let checked =
-                Stepper::<_, _, Option<EnergyIntegrals>>::check_series(system, law, start.t);
-            checked.and_then(|()| begun(explicit_for(settings.method)))
-        } else {
-            begun(settings.method)
-        };
-        if begun_by.is_err() && chosen.is_some() && settings.method.kind == MethodKind::Series {
-            *chosen = Some(Beginning::with(Method::DOP853, MethodReason::NoSeries));
-            settings.method = Method::DOP853;
-            begun_by = begun(settings.method);
-        }
-        let mut stepper = begun_by.map_err(|error| model.explain(error, q, v))?;
+        let begun = begun_by_choice(begun, &mut settings.method, chosen);
+        let mut stepper = begun.map_err(|error| model.explain(error, q, v))?;
         if !*is_resumed {
             let (t, u) = (start.t, stepper.inputs());
             check_equations(system, At { t, q, v, u })?;
@@ -274,18 +268,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         if let Some(beginning) = *chosen {
             stepper.count_evaluations(beginning.evaluations);
         }
-        let activity = ContactActivity::new(
-            settings.hands_over
-                && matches!(
-                    settings.method.kind,
-                    MethodKind::RungeKutta | MethodKind::Series
-                ),
-            (system.unilateral_contacts())
-                .map(|contact| contact.is_second_tangent)
-                .collect(),
-        );
         let choosing = match *chosen {
-            Some(choice) => Choosing::begun(start.t, choice, !has_contacts),
+            Some(choice) => Choosing::begun(start.t, choice, !has_contacts, settings.one_of),
             None => Choosing::none(),
         };
         let mut run = Box::new(Run {
@@ -297,7 +281,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             stop: until,
             sampling,
             next_step: None,
-            activity,
+            activity: activity(system, settings),
             contact_looks: ContactLooks::default(),
             held: None,
             flights: Flights::new(flies_by_series, chosen.filter(|_| has_contacts)),
@@ -309,6 +293,34 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         run.begin_at(start, ended.as_deref())?;
         Ok(run)
     }
+}
+
+/// Begins a stepper with a method, or with `dop853` if the run has chosen series and there are none at its start.
+fn begun_by_choice<T>(
+    begun: impl Fn(&'static Method) -> Result<T, StepError>,
+    method: &mut &'static Method,
+    chosen: &mut Option<Beginning>,
+) -> Result<T, StepError> {
+    let stepper = begun(method);
+    if stepper.is_ok() || chosen.is_none() || method.kind != MethodKind::Series {
+        return stepper;
+    }
+    *chosen = Some(Beginning::with(Method::DOP853, MethodReason::NoSeries));
+    *method = Method::DOP853;
+    begun(method)
+}
+
+/// How frequently contacts change: nothing yet.
+fn activity<S: System>(system: &S, settings: &Settings) -> ContactActivity {
+    let may_hand_over = matches!(
+        settings.method.kind,
+        MethodKind::RungeKutta | MethodKind::Series
+    );
+    let contacts = system.unilateral_contacts();
+    ContactActivity::new(
+        settings.hands_over && may_hand_over && system.guides() == 0,
+        contacts.map(|contact| contact.is_second_tangent).collect(),
+    )
 }
 
 /// A run in progress.

@@ -82,6 +82,8 @@ pub(crate) struct Settings {
     pub hands_over: bool,
     /// Whether the run chooses its method.
     pub automatic: bool,
+    /// The number of runs of the machine, this one among them, that share the derivation of its series.
+    pub one_of: u64,
 }
 
 /// Settings of a simulation that are functions.

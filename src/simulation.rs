@@ -79,6 +79,7 @@ impl<'a, M: Machine> Simulation<'a, M> {
                 one_tolerance: true,
                 hands_over: false,
                 automatic: false,
+                one_of: 1,
             },
             callbacks: Callbacks::default(),
         }
@@ -283,6 +284,35 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     pub fn automatic(mut self) -> Self {
         self.settings.automatic = true;
         self.hand_over()
+    }
+
+    /// This run is one of so many of its machine, such as those of a sweep, which share the derivation of a series: a run that [chooses its
+    /// method](Self::automatic) then counts its part of the derivation, and goes on by series after fewer steps; with enough runs it decides at its start. By
+    /// default 1. Nothing else of a run depends on it, and 0 counts as 1.
+    ///
+    /// ```
+    /// use lagrangian::interpreted::InterpretedMachine;
+    /// use lagrangian::{Machine, Simulation};
+    ///
+    /// let swing = InterpretedMachine::from_text("machine Swing in plane {
+    ///     parameters { m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
+    ///     coordinates { theta: rad = 0.5 }
+    ///     bodies { bob { mass: m, at: l*(sin(theta), -cos(theta)) } }
+    ///     gravity (0, -g);
+    /// }");
+    /// let swing = swing.build()?;
+    /// let method = |runs| {
+    ///     let run = Simulation::new(&swing).automatic().one_of(runs).tolerance(1e-12).until(10.0);
+    ///     let run = run.run(swing.start()).expect("a pendulum swings");
+    ///     run.choices()[0].method.tableau.name
+    /// };
+    /// // Ten seconds are not worth a derivation of 2 ms; a hundred thousand times ten seconds are.
+    /// assert_eq!([method(1), method(100_000)], ["dop853", "taylor"]);
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn one_of(mut self, runs: u64) -> Self {
+        self.settings.one_of = runs;
+        self
     }
 
     /// Changes to [time stepping](Method::MOREAU) when unilateral contacts change too often for each instant to be located, and back to

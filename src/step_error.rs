@@ -2,6 +2,7 @@
 
 use core::fmt::{self, Display};
 
+use crate::sentences::{said_as_it_is, sentences};
 use crate::{ContactTrouble, Singular};
 #[cfg(doc)]
 use crate::{Stepper, System};
@@ -142,101 +143,73 @@ pub enum StepError {
     },
 }
 
+said_as_it_is! { Singular, ContactTrouble }
+
 impl Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::NoLength { t } => write!(
-                f,
-                "the method takes steps of a fixed length, and none is set at t = {t:e} s: call `set_longest_step`"
-            ),
-            Self::NoTime { t } => write!(f, "{t} is not a valid end time"),
-            Self::OutsideStep { t, from, to } => write!(
-                f,
-                "t = {t:e} s is outside of the last step, which goes from {from:e} s to {to:e} s"
-            ),
-            Self::NotFinite { coordinate, t } => write!(
-                f,
-                "coordinate number {}, its rate or its acceleration has no finite value at t = {t:e} s",
-                coordinate + 1
-            ),
-            Self::Singular { singular, t } => write!(f, "{singular}, at t = {t:e} s"),
-            Self::Inconsistent {
-                constraint,
-                residual,
-                t,
-            } => write!(
-                f,
-                "constraint number {} cannot be met near the state at t = {t:e} s: its residual is {residual:.1e} of \
-                 the size of its terms",
-                constraint + 1
-            ),
-            Self::NoSeries { inputs: true, t } => write!(
-                f,
-                "inputs that change while the machine runs have no Taylor series, at t = {t:e} s"
-            ),
-            Self::NoSeries { inputs: false, t } => {
-                write!(f, "the machine has no Taylor series, at t = {t:e} s")
-            }
-            Self::NoWorkspace { t } => write!(
-                f,
-                "there is no workspace for the constraints, or for a method that needs some, at t = {t:e} s"
-            ),
-            Self::Changed { t } => write!(
-                f,
-                "the motion before t = {t:e} s must be read before the inputs are changed there"
-            ),
-            Self::Contact {
-                contact,
-                trouble,
-                t,
-            } => write!(
-                f,
-                "at t = {t:e} s, unilateral contact number {}: {}",
-                contact + 1,
-                trouble.words()
-            ),
-            Self::Unsuited { reason, t } => write!(
-                f,
-                "the method does not support this machine at t = {t:e} s: {reason}"
-            ),
-            Self::NotSolved { t, step } => write!(
-                f,
-                "the equations of a step of {step:e} s cannot be solved at t = {t:e} s: take shorter steps, or `radau5` where the \
-                 machine is stiff"
-            ),
-            Self::Jump { t, step } => write!(
-                f,
-                "an acceleration jumps within the step of {step:e} s from t = {t:e} s, as it does with `sign` of a rate, and no value on either \
-                 side satisfies the equations of the step, which shorter steps do not change: describe dry friction by `sliding`, take a \
-                 smooth function such as `tanh` in place of the jump, or take a method that chooses its steps"
-            ),
-            Self::NotExplicit { t } => write!(
-                f,
-                "the method is not explicit, as this stepper requires, at t = {t:e} s"
-            ),
-            Self::FewDigits { t } => write!(
-                f,
-                "the coefficients of the method are known only to the precision of f64, and the numbers have more digits, at \
-                 t = {t:e} s"
-            ),
-            Self::NotFree { t } => write!(
-                f,
-                "the machine has constraints or contacts, which this stepper does not support, at t = {t:e} s"
-            ),
-            Self::TooManySteps { steps, t } => {
-                write!(f, "{steps} steps reach only t = {t:e} s")
-            }
-            Self::StepTooSmall {
-                coordinate,
-                t,
-                step,
-            } => write!(
-                f,
-                "the step shrank to {step:e} s at t = {t:e} s, and the error of coordinate number {} is still too \
-                 large",
-                coordinate + 1
-            ),
+        self.write_sentence(f)
+    }
+}
+
+sentences! { StepError, written to f:
+    NoLength { t } =>
+        "the method takes steps of a fixed length, and none is set at t = {t:e} s: call `set_longest_step`"
+    NoTime { t } => "{t} is not a valid end time"
+    OutsideStep { t, from, to } =>
+        "t = {t:e} s is outside of the last step, which goes from {from:e} s to {to:e} s"
+    NotFinite { coordinate, t } => {
+        let number = coordinate + 1;
+        write!(
+            f,
+            "coordinate number {number}, its rate or its acceleration has no finite value at t = {t:e} s"
+        )
+    }
+    Singular { singular, t } => "{singular}, at t = {t:e} s"
+    Inconsistent { constraint, residual, t } => {
+        let number = constraint + 1;
+        write!(
+            f,
+            "constraint number {number} cannot be met near the state at t = {t:e} s: its residual is {residual:.1e} of \
+             the size of its terms"
+        )
+    }
+    NoSeries { inputs, t } => {
+        if *inputs {
+            write!(f, "inputs that change while the machine runs have no Taylor series, at t = {t:e} s")
+        } else {
+            write!(f, "the machine has no Taylor series, at t = {t:e} s")
         }
+    }
+    NoWorkspace { t } =>
+        "there is no workspace for the constraints, or for a method that needs some, at t = {t:e} s"
+    Changed { t } => "the motion before t = {t:e} s must be read before the inputs are changed there"
+    Contact { contact, trouble, t } => {
+        write!(f, "at t = {t:e} s, unilateral contact number {}: {}", contact + 1, trouble.words())
+    }
+    Unsuited { reason, t } =>
+        "the method does not support this machine at t = {t:e} s: {reason}"
+    NotSolved { t, step } =>
+        "the equations of a step of {step:e} s cannot be solved at t = {t:e} s: take shorter steps, or `radau5` where the \
+         machine is stiff"
+    Jump { t, step } =>
+        "an acceleration jumps within the step of {step:e} s from t = {t:e} s, as it does with `sign` of a rate, and no value on either \
+         side satisfies the equations of the step, which shorter steps do not change: describe dry friction by `sliding`, take a \
+         smooth function such as `tanh` in place of the jump, or take a method that chooses its steps"
+    NotExplicit { t } =>
+        "the method is not explicit, as this stepper requires, at t = {t:e} s"
+    FewDigits { t } =>
+        "the coefficients of the method are known only to the precision of f64, and the numbers have more digits, at \
+         t = {t:e} s"
+    NotFree { t } =>
+        "the machine has constraints or contacts, which this stepper does not support, at t = {t:e} s"
+    TooManySteps { steps, t } => "{steps} steps reach only t = {t:e} s"
+    StepTooSmall { coordinate, t, step } => {
+        let number = coordinate + 1;
+        write!(
+            f,
+            "the step shrank to {step:e} s at t = {t:e} s, and the error of coordinate number {number} is still too \
+             large"
+        )
     }
 }
 

@@ -4,10 +4,13 @@
 //! Both are implemented by the code that `machine!` emits and by the interpreter. Letters: `q` coordinates, `v = dq/dt`, `a = dv/dt`, `u`
 //! inputs, `t` time; SI units, angles in radians.
 
-use core::fmt::{self, Debug, Display};
+use core::fmt::Debug;
 
 use crate::series_memory::SeriesMemory;
-use crate::{ContactQuantity, UnilateralContact, Vector};
+use crate::{
+    Assumption, Constraint, ContactQuantity, Pivot, Quantity, Singular, State, UnilateralContact,
+    Vector,
+};
 
 /// The largest number of coefficients of each coordinate that emitted code computes in [`System::series`].
 pub(crate) const SERIES_ROWS: usize = 24;
@@ -577,6 +580,39 @@ pub trait System {
         write_each(self, ContactQuantity::Coefficients, (t, q, v), coefficients);
     }
 
+    /// How many of the unilateral contacts are guides: so many, behind all others. By default there are none.
+    ///
+    /// A guide holds its body from both sides, so that it is never open. Its gap, its rate along the normal and the row of that are 0; along
+    /// its tangent it slips, with friction, like any contact. What presses is its normal reaction `N`, of either sign,
+    ///
+    /// ```text
+    /// N = ν + ρ·a + χ·λ + Σ κ F,
+    /// ```
+    ///
+    /// where `λ` are the multipliers of the constraints and `F` the forces along the normals and tangents of all contacts. The accelerations of the system
+    /// are those without friction in guides. A machine whose guides are not beside unilateral contacts has them as [`contacts`](Self::contacts).
+    #[inline(always)]
+    fn guides(&self) -> usize {
+        0
+    }
+
+    /// For each guide its `ρ`, with a number for each coordinate, its `χ`, with one for each constraint, and its `κ`, with two for each
+    /// unilateral contact, along the normal and the tangent. There, the numbers for normals of guides are 0.
+    #[inline(always)]
+    fn guide_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
+
+    /// For each guide its `ν`, in N.
+    #[inline(always)]
+    fn guide_loads(
+        &self,
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _u: &Self::Inputs,
+        _loads: &mut [f64],
+    ) {
+    }
+
     /// For each coordinate, and last for the time, whether any gap depends on it; `None` if [`of_contacts`](Self::of_contacts) and
     /// [`least_gaps`](Self::least_gaps) are not implemented, as by default. If they are, a run evaluates only the contacts that are near: with
     /// few contacts, evaluating all of them costs no more.
@@ -724,36 +760,6 @@ fn write_each<S: System + ?Sized>(
     }
 }
 
-/// Equations of motion with derivatives of their accelerations with respect to the state, as linearization about an equilibrium needs them.
-/// Implicit methods do not use them: they take finite differences of the accelerations that the run evaluates, which include the effects of
-/// constraints and contacts.
-///
-/// Implemented by the code of a description with `derivatives { coordinates, rates }`, and by the
-/// interpreter for every machine.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not provide the derivatives of its accelerations with respect to the state",
-    label = "needs the derivatives of the accelerations",
-    note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine"
-)]
-pub trait Linearize: System {
-    /// The accelerations `a(t, q, v, u)` and, row after row, their derivatives
-    /// `∂aᵢ/∂qⱼ` and `∂aᵢ/∂vⱼ`, which are exact to rounding and not finite differences.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "a state, and the three things that are asked of it"
-    )]
-    fn linearize(
-        &self,
-        t: f64,
-        q: &Self::Vector,
-        v: &Self::Vector,
-        u: &Self::Inputs,
-        a: &mut Self::Vector,
-        by_coordinates: &mut Self::Matrix,
-        by_rates: &mut Self::Matrix,
-    ) -> Result<(), Singular>;
-}
-
 /// Equations of motion that are evaluated in stages, so that what stays the same is not computed again: implicit methods, impacts and
 /// friction iterate over rates while time and coordinates stay, and many states may share one time.
 ///
@@ -824,142 +830,7 @@ pub trait Staged: System {
     ) -> Result<(), Singular>;
 }
 
-/// Equations of motion with derivatives of their accelerations with respect to parameters and inputs as well.
-///
-/// Implemented by the code of a description with `derivatives { coordinates, rates, … }`, and by the interpreter.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not provide the derivatives of its accelerations with respect to the state, parameters and inputs",
-    label = "needs the derivatives of the accelerations",
-    note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine, with the names of the parameters and \
-            with `inputs`, where it is to be differentiated with respect to these"
-)]
-pub trait Differentiate: Linearize {
-    /// Names and units of the inputs and parameters with respect to which the accelerations are differentiated, in the order of the
-    /// columns: those in the description's `derivatives`.
-    fn variables(&self) -> impl ExactSizeIterator<Item = Quantity<'_>>;
-
-    /// [`linearize`](Linearize::linearize) and, row after row, the derivatives with respect to the [`variables`](Self::variables). Columns
-    /// that do not fit into `by_variables` are left out.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "a state, and the four things that are asked of it"
-    )]
-    fn differentiate(
-        &self,
-        t: f64,
-        q: &Self::Vector,
-        v: &Self::Vector,
-        u: &Self::Inputs,
-        a: &mut Self::Vector,
-        by_coordinates: &mut Self::Matrix,
-        by_rates: &mut Self::Matrix,
-        by_variables: &mut [f64],
-    ) -> Result<(), Singular>;
-}
-
-/// Time, coordinates and rates of a machine.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct State<C> {
-    /// Time, in s.
-    pub t: f64,
-    /// Coordinates.
-    pub q: C,
-    /// Their rates `dq/dt`.
-    pub v: C,
-}
-
-/// Name and unit of a number: `s1` in `m`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Quantity<'a> {
-    /// The name in the description; a member of a family with its index, `q[3]`.
-    pub name: &'a str,
-    /// The SI unit; `1` for a bare number.
-    pub unit: &'a str,
-}
-
-impl<'a> Quantity<'a> {
-    /// A number of this name, in this unit.
-    pub const fn new(name: &'a str, unit: &'a str) -> Self {
-        Self { name, unit }
-    }
-}
-
-/// A fact that a description assumes (`assume { s1 > 0 }`), and the margin by which it holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Assumption<'a> {
-    /// The fact as the description states it, `s1 > 0`.
-    pub text: &'a str,
-    /// The larger side minus the smaller one.
-    pub margin: f64,
-    /// Whether a margin of exactly 0 violates the fact (`>` and `<`, not `>=` and `<=`).
-    pub strict: bool,
-}
-
-impl Assumption<'_> {
-    /// Whether the fact holds; it does not if the margin is NaN.
-    pub fn holds(&self) -> bool {
-        self.margin > 0.0 || (!self.strict && self.margin >= 0.0)
-    }
-}
-
-/// A bilateral constraint on positions, `g(q, t) = 0`, or on rates alone, `G(q, t) v + … = 0`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Constraint<'a> {
-    /// The name in the description.
-    pub name: &'a str,
-    /// The SI unit of `g`; of the rate, if the constraint is not holonomic.
-    pub unit: &'a str,
-    /// The SI unit of its multiplier: a force for a length, a torque for an angle.
-    pub multiplier_unit: &'a str,
-    /// Whether it is a constraint on positions.
-    pub holonomic: bool,
-}
-
-/// The equations of motion cannot be solved for the accelerations.
-///
-/// If elimination stopped at a coordinate, some motion of the machine meets no inertia. That happens in poses where coordinates are
-/// degenerate (the angle of polar coordinates at radius 0), and in machines with a coordinate that moves no mass. If it stopped at a
-/// constraint, that constraint depends on those before it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Singular {
-    /// Where elimination stopped.
-    pub at: Pivot,
-    /// The pivot relative to the diagonal element that it came from; 0 if the pivot or the element is 0. At a contact, 0 if no motion
-    /// satisfies its law of friction, and infinite if several do. 0 if no row is the cause.
-    pub ratio: f64,
-}
-
-/// A row of the equations of motion `M a = f + Gᵀ λ`, `G a = γ`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Pivot {
-    /// The row of the coordinate with this index.
-    Coordinate(usize),
-    /// The row of the constraint with this index.
-    Constraint(usize),
-    /// The row of the contact with this index: the law of friction has no solution, or several.
-    Contact(usize),
-    /// No row: the machine provides no workspace for its contacts ([`System::with_workspace`]).
-    NoWorkspace,
-    /// No row: accelerations that involve the contact with this index are
-    /// not differentiated, since a sticking contact has no linearization.
-    NotDifferentiated(usize),
-}
-
 impl Singular {
-    /// Elimination stopped at a coordinate with this pivot, which came from this diagonal element.
-    #[cold]
-    pub fn new(coordinate: usize, pivot: f64, diagonal: f64) -> Self {
-        Self::at(Pivot::Coordinate(coordinate), pivot, diagonal)
-    }
-
-    /// Elimination stopped at a constraint with this pivot, which came from this diagonal element.
-    #[cold]
-    pub fn constraint(constraint: usize, pivot: f64, diagonal: f64) -> Self {
-        Self::at(Pivot::Constraint(constraint), pivot, diagonal)
-    }
-
     /// Name of the coordinate or constraint at which elimination stopped.
     pub fn name<'s, S: System>(&self, system: &'s S) -> &'s str {
         let name = match self.at {
@@ -974,49 +845,4 @@ impl Singular {
         };
         name.unwrap_or("?")
     }
-
-    fn at(at: Pivot, pivot: f64, diagonal: f64) -> Self {
-        // A diagonal element of 0 has a pivot of 0, and the ratio 0/0 is reported as 0.
-        let ratio = if pivot == 0.0 { 0.0 } else { pivot / diagonal };
-        Self { at, ratio }
-    }
 }
-
-impl Display for Singular {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.at {
-            Pivot::Coordinate(index) => write!(
-                f,
-                "the mass matrix cannot be inverted: at coordinate number {} the pivot is {:.1e} of the element on the diagonal",
-                index + 1,
-                self.ratio
-            ),
-            Pivot::Constraint(index) => write!(
-                f,
-                "constraint number {} depends on others: the pivot is {:.1e} of its element on the diagonal of G M⁻¹ Gᵀ",
-                index + 1,
-                self.ratio
-            ),
-            Pivot::Contact(index) => {
-                let count = if self.ratio == 0.0 {
-                    "no"
-                } else {
-                    "more than one"
-                };
-                write!(
-                    f,
-                    "{count} motion satisfies the friction law of contact number {}",
-                    index + 1
-                )
-            }
-            Pivot::NoWorkspace => write!(f, "the machine provides no workspace for its contacts"),
-            Pivot::NotDifferentiated(index) => write!(
-                f,
-                "the accelerations cannot be differentiated, because contact number {} may stick or slide",
-                index + 1
-            ),
-        }
-    }
-}
-
-impl core::error::Error for Singular {}

@@ -49,13 +49,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     )?;
     let dag = Dag::new();
     let compiled = Reading::open(&call.spec)?.compile_beside(&dag, all())?;
-    let mut states = compiled.model.coordinates.iter();
-    if let Some(state) = states.find(|c| c.rate.is_some()) {
-        return Err(Failure::Run(format!(
-            "the machine has the state `{}`, whose value at the end is not prescribed: fastest motions are found only for machines without `states`",
-            rate_name(&state.name.to_string(), "")
-        )));
-    }
+    refuse_states(&compiled)?;
     let start = call::Start {
         parameters: call.parameters.clone(),
         coordinates: Vec::new(),
@@ -109,6 +103,18 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
         Ok(())
     } else {
         Err(Failure::AlreadyReported)
+    }
+}
+
+/// Refuses a machine with states of first order.
+fn refuse_states(compiled: &Compiled<'_>) -> Result<(), Failure> {
+    let mut states = compiled.model.coordinates.iter();
+    match states.find(|c| c.rate.is_some()) {
+        None => Ok(()),
+        Some(state) => Err(Failure::Run(format!(
+            "the machine has the state `{}`, whose value at the end is not prescribed: fastest motions are found only for machines without `states`",
+            rate_name(&state.name.to_string(), "")
+        ))),
     }
 }
 

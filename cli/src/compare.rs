@@ -204,65 +204,75 @@ fn compare_quantities(
     }
     let mut all = Vec::new();
     for one in wanted {
-        let other = second.get(&one.name);
-        let other = other.ok_or_else(|| runs::unknown(&one.name, second, &call.second))?;
-        // Both are compared in the unit of the first.
-        let scale = match (&other.unit, &one.unit) {
-            (Some(other_unit), Some(unit)) => factor(other_unit, unit).ok_or_else(|| {
-                Failure::Run(format!(
-                    "`{}` is measured in {unit} in the first run and in {other_unit} in the second",
-                    one.name
-                ))
-            })?,
-            _ => 1.0,
-        };
-        let values: Vec<f64> = other.values.iter().map(|x| x * scale).collect();
-        let other = Quantity {
-            values,
-            ..other.clone()
-        };
-        let rates = [
-            first.rates(&one.name),
-            second
-                .rates(&one.name)
-                .map(|rates| rates.iter().map(|x| x * scale).collect()),
-        ];
-        let curves = [
-            first.curve(one, rates[0].as_deref(), call.interpolation),
-            second.curve(&other, rates[1].as_deref(), call.interpolation),
-        ];
-        let Some(difference) = difference(times, &curves[0], &curves[1]) else {
-            return Err(Failure::Run(format!(
-                "`{}` has no instant at which both runs have a value",
-                one.name
-            )));
-        };
-        let is_dense = |curve: &lagrangian_analysis::Curve<'_>| {
-            // Rows of one run that the other lacks require interpolation.
-            let rows = curve
-                .times()
-                .iter()
-                .filter(|t| (times[0]..=times[times.len() - 1]).contains(*t));
-            rows.count() >= times.len()
-        };
-        let between = [&curves[0], &curves[1]].map(|curve| {
-            (!is_dense(curve)).then(|| (curve.interpolation().name(), curve.interpolation_error()))
-        });
-        let first_values: Vec<f64> = times.iter().map(|t| curves[0].at(*t)).collect();
-        let values = first_values
-            .iter()
-            .zip(&difference.values)
-            .map(|(x, d)| x + d)
-            .collect();
-        all.push(Compared {
-            name: one.name.clone(),
-            unit: one.unit.clone().or(other.unit),
-            difference,
-            between,
-            values: [first_values, values],
-        });
+        all.push(compare_quantity(call, one, (first, second), times)?);
     }
     Ok((all, left_out))
+}
+
+/// One quantity of both runs, at these times, in its unit in the first.
+fn compare_quantity(
+    call: &call::Compare,
+    one: &Quantity,
+    (first, second): (&Columns, &Columns),
+    times: &[f64],
+) -> Result<Compared, Failure> {
+    let other = second.get(&one.name);
+    let other = other.ok_or_else(|| runs::unknown(&one.name, second, &call.second))?;
+    // Both are compared in the unit of the first.
+    let scale = match (&other.unit, &one.unit) {
+        (Some(other_unit), Some(unit)) => factor(other_unit, unit).ok_or_else(|| {
+            Failure::Run(format!(
+                "`{}` is measured in {unit} in the first run and in {other_unit} in the second",
+                one.name
+            ))
+        })?,
+        _ => 1.0,
+    };
+    let values: Vec<f64> = other.values.iter().map(|x| x * scale).collect();
+    let other = Quantity {
+        values,
+        ..other.clone()
+    };
+    let rates = [
+        first.rates(&one.name),
+        second
+            .rates(&one.name)
+            .map(|rates| rates.iter().map(|x| x * scale).collect()),
+    ];
+    let curves = [
+        first.curve(one, rates[0].as_deref(), call.interpolation),
+        second.curve(&other, rates[1].as_deref(), call.interpolation),
+    ];
+    let Some(difference) = difference(times, &curves[0], &curves[1]) else {
+        return Err(Failure::Run(format!(
+            "`{}` has no instant at which both runs have a value",
+            one.name
+        )));
+    };
+    let is_dense = |curve: &lagrangian_analysis::Curve<'_>| {
+        // Rows of one run that the other lacks require interpolation.
+        let rows = curve
+            .times()
+            .iter()
+            .filter(|t| (times[0]..=times[times.len() - 1]).contains(*t));
+        rows.count() >= times.len()
+    };
+    let between = [&curves[0], &curves[1]].map(|curve| {
+        (!is_dense(curve)).then(|| (curve.interpolation().name(), curve.interpolation_error()))
+    });
+    let first_values: Vec<f64> = times.iter().map(|t| curves[0].at(*t)).collect();
+    let values = first_values
+        .iter()
+        .zip(&difference.values)
+        .map(|(x, d)| x + d)
+        .collect();
+    Ok(Compared {
+        name: one.name.clone(),
+        unit: one.unit.clone().or(other.unit),
+        difference,
+        between,
+        values: [first_values, values],
+    })
 }
 
 /// The quantities that differ by more than the call allows.

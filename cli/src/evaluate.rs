@@ -6,8 +6,8 @@ use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{
-    At, ContactForce, Error, Evaluation, Machine, Simulation, State, System, check_equations,
-    loads_shared_otherwise, penetrations,
+    At, ContactForce, Error, Evaluation, Machine, Quantity, Simulation, State, System,
+    check_equations, loads_shared_otherwise, penetrations,
 };
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::Dag;
@@ -287,94 +287,44 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     let u = system.default_inputs();
     let n = q.len();
     let evaluated = Evaluation::of(system, At { t, q, v, u: &u });
-    let Evaluation {
-        mass_matrix: matrix,
-        bias,
-        applied,
-        forces,
-        accelerations: a,
-        multipliers,
-        reactions,
-        contacts: sliding,
-        unilateral,
-        kinetic_energy,
-        potential_energy,
-        dissipation,
-        outputs,
-        ..
-    } = evaluated.map_err(|error| Error::of_step(error, system).to_string())?;
-    if !multipliers.is_empty() && unilateral.iter().any(|force| force.closed) {
-        return Err(
-            "the multipliers of constraints where contacts are closed are those of a run".into(),
-        );
-    }
-    if let Some((coordinate, _)) = system.coordinates().zip(&a).find(|(_, a)| !a.is_finite()) {
-        return Err(format!(
-            "the acceleration of `{}` is not finite here",
-            coordinate.name
-        ));
-    }
-    check_equations(system, At { t, q, v, u: &u }).map_err(|error| {
-        // The program takes a coordinate that a constraint determines from the others, so away from the constraints its
-        // accelerations are not those of the point.
-        let apart = off_constraints(system, state);
-        let is_apart = matches!(error, Error::EquationsViolated { .. });
-        apart
-            .filter(|_| is_apart)
-            .unwrap_or_else(|| error.to_string())
-    })?;
-    let mut contacts = contacts::forces(system, &multipliers);
-    contacts.extend(slips(system, &sliding));
-    contacts.extend(collisions::forces(system, &unilateral));
-    // JSON cannot represent infinity, and null would be read as a missing value.
-    let all: [(&str, &[f64]); 8] = [
-        ("mass matrix", &matrix),
-        ("bias", &bias),
-        ("generalized force that is applied", &applied),
-        ("generalized force", &forces),
-        ("reaction", &reactions),
-        ("kinetic energy", &[kinetic_energy]),
-        ("potential energy", &[potential_energy]),
-        ("dissipation", &[dissipation]),
-    ];
-    for (name, values) in all {
-        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-            return Err(format!("the {name} is not finite here: {value}"));
-        }
-    }
+    let found = evaluated.map_err(|error| Error::of_step(error, system).to_string())?;
+    check(system, state, &found)?;
+    let mut contacts = contacts::forces(system, &found.multipliers);
+    contacts.extend(slips(system, &found.contacts));
+    contacts.extend(collisions::forces(system, &found.unilateral));
+    check_finite(&found)?;
     // The rows of states of first order come after those of the coordinates; their accelerations are the
     // rates of the states.
-    let is_integral: Vec<bool> = system
-        .coordinates()
-        .map(|c| state_of(c.name).is_some())
-        .collect();
-    let declared = is_integral.iter().filter(|is| !**is).count();
-    let state_rates = system.coordinates().zip(&a);
+    let is_integral = |c: &Quantity<'_>| state_of(c.name).is_some();
+    let declared = system.coordinates().filter(|c| !is_integral(c)).count();
+    let state_rates = system.coordinates().zip(&found.accelerations);
     let state_rates = state_rates
         .filter_map(|(c, rate)| Some((state_of(c.name)?, Value::from(*rate))))
         .collect();
     let result = Numbered {
-        mass_matrix: matrix
+        mass_matrix: found
+            .mass_matrix
             .chunks(n.max(1))
             .take(declared)
             .map(|row| row[..declared].to_vec())
             .collect(),
-        bias: bias[..declared].to_vec(),
-        applied: applied[..declared].to_vec(),
-        forces: forces[..declared].to_vec(),
+        bias: found.bias[..declared].to_vec(),
+        applied: found.applied[..declared].to_vec(),
+        forces: found.forces[..declared].to_vec(),
         state_rates,
-        accelerations: a[..declared].to_vec(),
+        accelerations: found.accelerations[..declared].to_vec(),
         multipliers: system
             .constraints()
-            .zip(multipliers)
+            .zip(found.multipliers)
             .map(|(constraint, value)| (constraint.name.to_owned(), value.into()))
             .collect(),
-        reactions: reactions.into_iter().take(declared).collect(),
+        reactions: found.reactions.into_iter().take(declared).collect(),
         contacts,
-        kinetic_energy,
-        potential_energy,
-        dissipation,
-        outputs: outputs
+        kinetic_energy: found.kinetic_energy,
+        potential_energy: found.potential_energy,
+        dissipation: found.dissipation,
+        outputs: found
+            .outputs
             .iter()
             .map(|(name, value)| (name.to_owned(), value.into()))
             .collect(),
@@ -385,6 +335,62 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             .collect(),
     };
     serde_json::to_value(result).map_err(|error| error.to_string())
+}
+
+/// Checks that the accelerations exist and satisfy the equations of motion.
+fn check(
+    system: &InterpretedSystem,
+    state: &State<Named>,
+    found: &Evaluation<Named>,
+) -> Result<(), String> {
+    let is_closed = found.unilateral.iter().any(|force| force.closed);
+    if !found.multipliers.is_empty() && is_closed {
+        return Err(
+            "the multipliers of constraints where contacts are closed are those of a run".into(),
+        );
+    }
+    let mut accelerations = system.coordinates().zip(&found.accelerations);
+    if let Some((coordinate, _)) = accelerations.find(|(_, a)| !a.is_finite()) {
+        return Err(format!(
+            "the acceleration of `{}` is not finite here",
+            coordinate.name
+        ));
+    }
+    let at = At {
+        t: state.t,
+        q: &state.q.values,
+        v: &state.v.values,
+        u: &system.default_inputs(),
+    };
+    check_equations(system, at).map_err(|error| {
+        // The program takes a coordinate that a constraint determines from the others, so away from the constraints its
+        // accelerations are not those of the point.
+        let apart = off_constraints(system, state);
+        let is_apart = matches!(error, Error::EquationsViolated { .. });
+        apart
+            .filter(|_| is_apart)
+            .unwrap_or_else(|| error.to_string())
+    })
+}
+
+/// Checks that all numbers can be written: JSON cannot represent infinity, and null would be read as a missing value.
+fn check_finite(found: &Evaluation<Named>) -> Result<(), String> {
+    let all: [(&str, &[f64]); 8] = [
+        ("mass matrix", &found.mass_matrix),
+        ("bias", &found.bias),
+        ("generalized force that is applied", &found.applied),
+        ("generalized force", &found.forces),
+        ("reaction", &found.reactions),
+        ("kinetic energy", &[found.kinetic_energy]),
+        ("potential energy", &[found.potential_energy]),
+        ("dissipation", &[found.dissipation]),
+    ];
+    for (name, values) in all {
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+            return Err(format!("the {name} is not finite here: {value}"));
+        }
+    }
+    Ok(())
 }
 
 /// The rigid contacts that are penetrated at a state.
@@ -413,7 +419,7 @@ fn loads_shared(system: &InterpretedSystem, at: At<'_, InterpretedSystem>) -> Op
         .collect();
     (!names.is_empty()).then(|| {
         format!(
-            "the accelerations depend on how {} share their load: the distribution of contacts that all yield alike could not be computed, and another \
+            "the accelerations depend on how {} share their load: the distribution of equally stiff contacts could not be computed, and another \
              possible one was taken",
             names.join(", ")
         )

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::diagnostic::{Report, most_similar};
 use lagrangian_spec::model::Model;
 use lagrangian_spec::source::Sources;
 use serde_json::{Map, Value};
@@ -59,5 +59,15 @@ impl Failure {
             },
             other => other,
         }
+    }
+}
+
+/// Help for a name that is not known: the name that was probably meant, or all that there are.
+pub fn help_with<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> String {
+    let known: Vec<&str> = known.collect();
+    match (most_similar(name, known.iter().copied()), &known[..]) {
+        (Some(near), _) => format!("did you mean `{near}`?"),
+        (None, []) => "there are none".to_owned(),
+        (None, known) => format!("there are: {}", known.join(", ")),
     }
 }

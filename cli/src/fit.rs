@@ -10,13 +10,13 @@ use std::sync::Arc;
 
 use lagrangian::Machine;
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
+use lagrangian::methods::{Method, TAYLOR};
 use lagrangian_fit::least_squares::Trouble;
 use lagrangian_fit::motion::{
     Chart, ConstraintFindings, Experiment, Fit, FitResult, Quantity, Running, Sought, Subject,
 };
 use lagrangian_fit::searches::{Failed, Search, Sigmas, search};
 use lagrangian_mechanics::Compiled;
-use lagrangian_spec::diagnostic::{Severity, most_similar};
 use lagrangian_spec::unit::{self, integral_name, state_of};
 use lagrangian_sweep::charts::ChartedPoints;
 use lagrangian_sweep::plan::Law;
@@ -25,7 +25,7 @@ use lagrangian_symbolic::Dag;
 
 use crate::call::{self, Bounds, SigmaOption};
 use crate::evaluate::set_start;
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
 use crate::inputs;
 use crate::interrupt;
 use crate::methods;
@@ -95,12 +95,12 @@ struct Fitted<'a, 'f> {
 /// If the spec, the data or the call is invalid, or the search finds no minimum.
 pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let method = methods::named(&call.method)?;
-    if std::ptr::eq(method, &lagrangian::methods::TAYLOR) {
+    if std::ptr::eq(method, &TAYLOR) {
         return Err(Failure::Call(
             "--method taylor: a fit integrates the motion with its derivatives, which have no Taylor series; use dop853".into(),
         ));
     }
-    let mut given = data::read_all(call)?;
+    let given = data::read_all(call)?;
     let everywhere = inputs::parse(&call.inputs)?;
     let files = Files::new(call, &given, &everywhere)?;
     let dag = Dag::new();
@@ -131,43 +131,24 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         let chart = chart.as_ref();
         experiments.push(one.experiment(&machine, &compiled, &start, (chart, signals))?);
     }
-    let (classes, ignored) =
-        data::measure(call, &machine, &compiled, &mut given, &mut experiments)?;
-    for note in ignored {
-        output::print_error(format_args!("note: {note}"));
-    }
+    let classes = data::measure(call, &machine, &compiled, &given, &mut experiments)?;
     let sought = sought(call, &machine, &compiled, &given, &experiments)?;
     check_values(&machine, &sought)?;
     let (sigmas, values) = sigmas(call, &classes, &experiments)?;
-    let refusal = |parameters: &[f64]| {
-        let diagnostics = compiled.model.parameter_diagnostics(parameters);
-        let wrong = diagnostics
-            .iter()
-            .find(|diagnostic| diagnostic.code.severity() == Severity::Error);
-        wrong.map(|wrong| format!("{} [{}]", wrong.message, wrong.code))
-    };
-    let stop = interrupt::flag();
+    let refusal = |parameters: &[f64]| data::refusal(&compiled, parameters);
     let mut fit = Fit {
         experiments,
         sought,
         sigmas: values,
-        running: Running {
-            method,
-            tolerance: call.tolerance,
-            most_steps: call.max_steps,
-            kept: reading::kept_names(&call.keep).map(<[String]>::to_vec),
-            stop: Arc::new(move || stop.load(std::sync::atomic::Ordering::Relaxed)),
-        },
+        running: running(call, method),
         refusal: &refusal,
         runs: [0, 0],
         held: ConstraintFindings::default(),
     };
-    let measured = data::count(&fit.experiments);
-    if measured < fit.sought.len() {
+    let (measured, unknown) = (data::count(&fit.experiments), fit.sought.len());
+    if measured < unknown {
         return Err(Failure::Call(format!(
-            "{} measurements cannot determine {} numbers",
-            measured,
-            fit.sought.len()
+            "{measured} measurements cannot determine {unknown} numbers"
         )));
     }
     progress::now("fitting");
@@ -188,6 +169,18 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     };
     result.warnings = findings::warnings(&result);
     conclude(result, &files)
+}
+
+/// How runs are made, with the settings of a call.
+fn running(call: &call::Fit, method: &'static Method) -> Running {
+    let stop = interrupt::flag();
+    Running {
+        method,
+        tolerance: call.tolerance,
+        most_steps: call.max_steps,
+        kept: reading::kept_names(&call.keep).map(<[String]>::to_vec),
+        stop: Arc::new(move || stop.load(std::sync::atomic::Ordering::Relaxed)),
+    }
 }
 
 /// The machine in the Cartesian coordinates that the spec names, if it names any and the call can be made in them.
@@ -570,7 +563,7 @@ fn of_starts(
                 (
                     Subject::Rate(e, place),
                     "rate",
-                    data::rate_unit(coordinate_unit),
+                    unit::rate_unit(name, coordinate_unit),
                     1,
                     start.v.values[place],
                 )
@@ -622,11 +615,7 @@ fn ends(bounds: &Bounds, unit: &str) -> Result<[f64; 2], Failure> {
 }
 
 fn unknown(option: &str, noun: &str, name: &str, known: &[String]) -> Failure {
-    let help = match most_similar(name, known.iter().map(String::as_str)) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None if known.is_empty() => "there are none".to_owned(),
-        None => format!("there are: {}", known.join(", ")),
-    };
+    let help = help_with(name, known.iter().map(String::as_str));
     Failure::Call(format!("--fit {option}: no {noun} named `{name}`; {help}"))
 }
 

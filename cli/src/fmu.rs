@@ -20,14 +20,13 @@ use lagrangian::{Machine, Simulation, System, Warning};
 use lagrangian_languages::c::uniform::{self, Derivatives};
 use lagrangian_mechanics::{Compiled, Unproved};
 use lagrangian_program::Program;
-use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_spec::model::stage;
 use lagrangian_symbolic::Dag;
 use serde_json::json;
 
 use crate::call::{self, Assignment, Engine, Running, UnitKind, UnitMethod};
 use crate::evaluate::set_start;
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
 use crate::output::{self, Destination, UNIT, keep_apart, keep_document_apart};
 use crate::progress;
 use crate::reading::{self, Reading};
@@ -212,20 +211,31 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         progress::now("compiling the unit");
         compile::libraries(&unit, &sources, call.cc.as_deref(), &call.target)?
     };
-    let mut entries = vec![Entry::text(
-        "modelDescription.xml",
-        description::text(&unit),
-    )];
-    for (name, content) in &sources {
+    let entries = entries(&unit, &sources, &libraries);
+    let bytes = archive::bytes(&entries).map_err(Failure::run)?;
+    out.write(|to| to.write_all(&bytes))?;
+    let folders: Vec<&str> = libraries.iter().map(|(p, _)| p.folder).collect();
+    print_summary(call, &unit, &folders);
+    Ok(())
+}
+
+/// The files of a unit: its description, its sources, and its libraries.
+fn entries(
+    unit: &Unit<'_>,
+    sources: &[(&'static str, String)],
+    libraries: &[(compile::Platform, Vec<u8>)],
+) -> Vec<Entry> {
+    let mut entries = vec![Entry::text("modelDescription.xml", description::text(unit))];
+    for (name, content) in sources {
         entries.push(Entry::text(&format!("sources/{name}"), content.clone()));
     }
-    if version == Version::Three {
+    if unit.version == Version::Three {
         entries.push(Entry::text(
             "sources/buildDescription.xml",
-            description::of_build(&unit),
+            description::of_build(unit),
         ));
     }
-    for (platform, library) in &libraries {
+    for (platform, library) in libraries {
         let name = format!(
             "binaries/{}/{}.{}",
             platform.folder, unit.identifier, platform.ending
@@ -235,11 +245,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
             content: library.clone(),
         });
     }
-    let bytes = archive::bytes(&entries).map_err(Failure::run)?;
-    out.write(|to| to.write_all(&bytes))?;
-    let folders: Vec<&str> = libraries.iter().map(|(p, _)| p.folder).collect();
-    print_summary(call, &unit, &folders);
-    Ok(())
+    entries
 }
 
 /// Prints a summary of a unit.
@@ -414,10 +420,7 @@ fn start(machine: &InterpretedMachine, given: &call::Start) -> Result<Vec<(f64, 
 }
 
 fn unknown_output(name: &str, known: &[&str]) -> Failure {
-    let help = match most_similar(name, known.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("there are: {}", known.join(", ")),
-    };
+    let help = help_with(name, known.iter().copied());
     Failure::Call(format!(
         "--outputs {name}: no variable has this name; {help}"
     ))

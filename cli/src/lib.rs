@@ -29,6 +29,7 @@ mod inputs;
 mod interrupt;
 mod library;
 mod linearize;
+mod machine_in_chart;
 mod map;
 mod methods;
 mod modes;

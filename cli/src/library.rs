@@ -69,7 +69,7 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     let dag = Dag::new();
     let reading = Reading::open(&call.spec)?;
     let program = reading.compile_beside(&dag, files())?.program;
-    if !program.contacts.is_empty() {
+    if !program.contacts.is_empty() || program.sizes().guides > 0 {
         return Err(Failure::run(
             "whether a contact sticks or slides is not a function of q and v alone: a library of a machine with \
              `sliding` cannot be made; use a variant with a constraint in place of each guide, or run it with `lagrangian simulate` or the \
@@ -188,18 +188,8 @@ fn is_in_pairs(program: &Proved) -> bool {
     program.unilateral.is_empty() && accelerations.is_some_and(is_long)
 }
 
-/// The whole library as one file of Rust.
-fn source(
-    program: &Proved,
-    lanes: &[u8],
-    is_straight: bool,
-    is_in_pairs: bool,
-) -> Result<String, Failure> {
-    let module = |is_in_pairs| {
-        let options = options(is_straight, is_in_pairs);
-        emit::rust::library(program, &options).map_err(Failure::run)
-    };
-    let machine = module(false)?;
+/// The modules of a library: those of the crate of numbers that it needs, and the machine.
+fn modules(machine: String) -> [(&'static str, String); 13] {
     // From the crate of numbers only the trait is used, which follows its list of modules; from the plain numbers `f64`,
     // which precedes `f32`, with the functions of the C library.
     let after = |text: &'static str, mark: &str| text.find(mark).map_or(text, |at| &text[at..]);
@@ -212,11 +202,7 @@ fn source(
     );
     // Arrays of C are aligned as single numbers.
     let lanes_of_c = LANES.replacen("#[repr(C, align(16))]", "#[repr(C)]", 1);
-    let mut source = String::from(
-        "#![allow(dead_code, unused_imports, unused_macros)]\n\
-         #![allow(clippy::all)]\n",
-    );
-    let modules = [
+    [
         (
             "scalar",
             format!("pub use crate::kernel::{{Kernel, Piece}};\nuse crate::series;\n{scalar}"),
@@ -233,13 +219,31 @@ fn source(
         ("vector", VECTOR.to_owned()),
         ("x86", X86.to_owned()),
         ("machine", machine),
-    ];
+    ]
+}
+
+/// The whole library as one file of Rust.
+fn source(
+    program: &Proved,
+    lanes: &[u8],
+    is_straight: bool,
+    is_in_pairs: bool,
+) -> Result<String, Failure> {
+    let module = |is_in_pairs| {
+        let options = options(is_straight, is_in_pairs);
+        emit::rust::library(program, &options).map_err(Failure::run)
+    };
+    let machine = module(false)?;
+    let mut source = String::from(
+        "#![allow(dead_code, unused_imports, unused_macros)]\n\
+         #![allow(clippy::all)]\n",
+    );
     let alone = if is_in_pairs {
         format!("mod alone {{\n{}}}\n\n", module(true)?)
     } else {
         "use machine as alone;\n\n".to_owned()
     };
-    for (name, text) in modules {
+    for (name, text) in modules(machine) {
         let condition = match name {
             "x86" => "#[cfg(target_arch = \"x86_64\")]\n",
             _ => "",
@@ -377,6 +381,16 @@ fn compile(source: &str, is_in_pairs: bool, call: &call::Library) -> Result<Vec<
     )))
 }
 
+/// The prototype of the function for several states at once.
+fn prototype_of_several(n: u8) -> String {
+    format!(
+        "/* The same of {n} states. Component i of state k is at `y[{n}*i + k]`, and so for the accelerations; `t[k]` \
+         is its\n * time. Inputs are common to all. A state at which the mass matrix is singular does not affect the \
+         others. */\n\
+         void eval{n}(const double *y, const double *t, const double *p, double *qdd);\n\n"
+    )
+}
+
 /// The header for C.
 fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
     let Program {
@@ -406,17 +420,7 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
         }
         lines
     };
-    let several: String = lanes
-        .iter()
-        .map(|n| {
-            format!(
-                "/* The same of {n} states. Component i of state k is at `y[{n}*i + k]`, and so for the accelerations; `t[k]` \
-                 is its\n * time. Inputs are common to all. A state at which the mass matrix is singular does not affect the \
-                 others. */\n\
-                 void eval{n}(const double *y, const double *t, const double *p, double *qdd);\n\n"
-            )
-        })
-        .collect();
+    let several: String = lanes.iter().map(|n| prototype_of_several(*n)).collect();
     let mut interface = INTERFACE.replacen("LANES\n", &several, 1);
     let mut counts = String::new();
     if !unilateral.is_empty() {

@@ -17,14 +17,14 @@ use lagrangian_linear::poles::{Pole, poles};
 use lagrangian_linear::spectrum::damping;
 use lagrangian_linear::zeros::zeros;
 use lagrangian_linear::{Complex, DMatrix};
-use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::{integral_name, rate_unit, state_of};
 use serde_json::{Value, json};
 
 use crate::call;
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
 use crate::modes::{self, OPTIONS, number};
+use crate::numbers::after_number;
 use crate::other_chart::{self, OtherChart};
 use crate::output;
 use crate::reading::{self, places};
@@ -132,17 +132,11 @@ fn about_start(
     let width = width.unwrap_or(0);
     for (((name, _), q), v) in start.q.iter().zip(&model.q).zip(&model.v) {
         if let Some(state) = state_of(name) {
-            let unit = match rate_unit(name, start.q.unit(name).unwrap_or("s")).as_str() {
-                "1" => String::new(),
-                unit => format!(" {unit}"),
-            };
+            let unit = after_number(&rate_unit(name, start.q.unit(name).unwrap_or("s")));
             let _ = writeln!(text, "  {state:width$}  {}{unit}", number(*v));
             continue;
         }
-        let unit = match start.q.unit(name) {
-            None | Some("1") => String::new(),
-            Some(unit) => format!(" {unit}"),
-        };
+        let unit = after_number(start.q.unit(name).unwrap_or("1"));
         let _ = write!(text, "  {name:width$}  {}{unit}", number(*q));
         if *v != 0.0 {
             let verb = if unit == " rad" { "turning" } else { "moving" };
@@ -284,11 +278,7 @@ fn resolve(name: &str, q: &Named, outputs: &Named, constraints: &[String]) -> Ve
 }
 
 fn unknown(option: &str, noun: &str, name: &str, known: &[String]) -> Failure {
-    let help = match most_similar(name, known.iter().map(String::as_str)) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None if known.is_empty() => "there are none".to_owned(),
-        None => format!("there are: {}", known.join(", ")),
-    };
+    let help = help_with(name, known.iter().map(String::as_str));
     Failure::Call(format!("{option} {name}: no {noun} named `{name}`; {help}"))
 }
 

@@ -11,7 +11,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::call;
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
 use crate::output::{self, Destination, PAGE, SVG, keep_apart};
 use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of, tick};
 use crate::recording::parts;
@@ -114,29 +114,8 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
         .iter()
         .map(|name| Ok((name.as_str(), rows.numbers(name)?)));
     let quantities = quantities.collect::<Result<Vec<_>, Failure>>()?;
-    let drawing = match over.as_slice() {
-        [x] => Picture::Curves(Curves::new(&rows, x, &quantities, call.samples)?),
-        [x, y] if call.samples => {
-            return Err(Failure::Call(format!(
-                "samples are plotted over one parameter, --over {x} or --over {y}: over two, many would coincide"
-            )));
-        }
-        [x, y] => {
-            let [(name, values)] = quantities.as_slice() else {
-                return Err(Failure::Call(
-                    "a map over two parameters shows one quantity: --of NAME".into(),
-                ));
-            };
-            Picture::Heat(Heat::new(&rows, [x, y], (name, values))?)
-        }
-        _ => {
-            return Err(Failure::Call(format!(
-                "a map is plotted over one or two parameters, as in --over {}; the varied parameters are {}",
-                rows.names.get(1).map_or("NAME", String::as_str),
-                rows.names[1..=rows.varied].join(", ")
-            )));
-        }
-    };
+    let over: Vec<&str> = over.iter().map(String::as_str).collect();
+    let drawing = Picture::new(&rows, &over, &quantities, call.samples)?;
     let [plot, report] = &files;
     if let Some(plot) = plot {
         let text = match &drawing {
@@ -170,6 +149,41 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
 enum Picture<'a> {
     Curves(Curves<'a>),
     Heat(Heat<'a>),
+}
+
+impl<'a> Picture<'a> {
+    /// Quantities over one parameter, or one quantity over two.
+    fn new(
+        rows: &Rows,
+        over: &[&'a str],
+        quantities: &'a [(&'a str, Vec<f64>)],
+        are_samples: bool,
+    ) -> Result<Picture<'a>, Failure> {
+        match *over {
+            [x] => Ok(Picture::Curves(Curves::new(
+                rows,
+                x,
+                quantities,
+                are_samples,
+            )?)),
+            [x, y] if are_samples => Err(Failure::Call(format!(
+                "samples are plotted over one parameter, --over {x} or --over {y}: over two, many would coincide"
+            ))),
+            [x, y] => {
+                let [(name, values)] = quantities else {
+                    return Err(Failure::Call(
+                        "a map over two parameters shows one quantity: --of NAME".into(),
+                    ));
+                };
+                Ok(Picture::Heat(Heat::new(rows, [x, y], (name, values))?))
+            }
+            _ => Err(Failure::Call(format!(
+                "a map is plotted over one or two parameters, as in --over {}; the varied parameters are {}",
+                rows.names.get(1).map_or("NAME", String::as_str),
+                rows.names[1..=rows.varied].join(", ")
+            ))),
+        }
+    }
 }
 
 /// The cells of a table, with the header first.
@@ -254,11 +268,7 @@ impl Rows {
     fn place(&self, name: &str) -> Result<usize, Failure> {
         let found = self.names.iter().position(|known| known == name);
         found.ok_or_else(|| {
-            let names = self.names.iter().map(String::as_str);
-            let help = match lagrangian_spec::diagnostic::most_similar(name, names) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("there are: {}", self.names.join(", ")),
-            };
+            let help = help_with(name, self.names.iter().map(String::as_str));
             Failure::Call(format!("no column named `{name}`; {help}"))
         })
     }
@@ -296,7 +306,7 @@ impl Rows {
     }
 
     /// The varied columns with several values, except some of them.
-    fn others(&self, but: &[&String]) -> Vec<usize> {
+    fn others(&self, but: &[&str]) -> Vec<usize> {
         let places = 1..=self.varied;
         let differs = |place: &usize| {
             self.rows
@@ -304,7 +314,7 @@ impl Rows {
                 .any(|row| row[*place] != self.rows[0][*place])
         };
         places
-            .filter(|place| !but.contains(&&self.names[*place]))
+            .filter(|place| !but.contains(&self.names[*place].as_str()))
             .filter(differs)
             .collect()
     }
@@ -325,7 +335,7 @@ struct Curves<'a> {
 impl<'a> Curves<'a> {
     fn new(
         rows: &Rows,
-        x: &'a String,
+        x: &'a str,
         quantities: &'a [(&'a str, Vec<f64>)],
         are_dots: bool,
     ) -> Result<Curves<'a>, Failure> {
@@ -467,7 +477,7 @@ struct Heat<'a> {
 impl<'a> Heat<'a> {
     fn new(
         rows: &Rows,
-        [x, y]: [&'a String; 2],
+        [x, y]: [&'a str; 2],
         (name, values): (&'a str, &[f64]),
     ) -> Result<Heat<'a>, Failure> {
         let [across, up] = [rows.numbers(x)?, rows.numbers(y)?];

@@ -1,9 +1,8 @@
 //! Integration methods by name.
 
 use lagrangian::methods::Method;
-use lagrangian_spec::diagnostic::most_similar;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
 
 /// Automatic choice of methods: the default one, implicit ones where the machine is stiff, and time stepping where
 /// contacts meet too often.
@@ -40,13 +39,9 @@ fn found(
     offered: fn(&Method) -> bool,
 ) -> Result<&'static Method, Failure> {
     Method::named(name).ok_or_else(|| {
-        let methods = || Method::all().filter(|method| offered(method));
-        let methods = || methods().map(|method| method.tableau.name);
-        let names = || others.iter().copied().chain(methods());
-        let help = match most_similar(name, names()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
-        };
+        let methods = Method::all().filter(|method| offered(method));
+        let methods = methods.map(|method| method.tableau.name);
+        let help = help_with(name, others.iter().copied().chain(methods));
         Failure::Call(format!("no method named `{name}`; {help}"))
     })
 }

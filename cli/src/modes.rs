@@ -2,17 +2,17 @@
 
 mod locus;
 pub mod vary;
+mod words;
 
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, Simulation, State, System};
+use lagrangian_linear::model;
 use lagrangian_linear::motion::SteadyMotion;
 use lagrangian_linear::search::{self, Wanted};
 use lagrangian_linear::spectrum::{Mode, Modes, damping};
 use lagrangian_linear::steady::{self, Options};
-use lagrangian_linear::{Complex, model};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::model::Model;
 use lagrangian_spec::source::Sources;
@@ -23,11 +23,15 @@ use serde_json::{Map, Value, json};
 use crate::call;
 use crate::evaluate::{ended_assumptions, set_start};
 use crate::failure::Failure;
+pub use crate::numbers::number;
+use crate::numbers::shown_name;
 use crate::other_chart::{self, OtherChart};
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading};
 use crate::table;
-use vary::{Critical, Trace};
+use vary::Trace;
+pub use words::text_of_place;
+use words::{text, text_of_trace};
 
 /// The names of the options that choose the start, for messages.
 pub const OPTIONS: Options = Options {
@@ -309,11 +313,6 @@ fn is_moving(names: &[&str], motion: &SteadyMotion) -> bool {
     rates.any(|(name, v)| *v != 0.0 && state_of(name).is_none())
 }
 
-/// The name of a coordinate; for the integral of a state of first order the name of the state.
-fn shown_name(name: &str) -> String {
-    state_of(name).unwrap_or_else(|| name.to_owned())
-}
-
 fn as_json(names: &[&str], motion: &SteadyMotion) -> Value {
     let by_name = |values: &[f64]| -> Map<String, Value> {
         let pairs = names.iter().zip(values);
@@ -471,291 +470,4 @@ fn columns(names: &[&str], units: &[&str], trace: &Trace) -> Vec<(String, Vec<f6
         }
     }
     columns
-}
-
-/// The ranges in which motions grow or do not exist, and the critical values.
-fn text_of_trace(trace: &Trace) -> String {
-    let mut text = String::new();
-    let unit = match trace.unit.as_str() {
-        "1" => String::new(),
-        unit => format!(" {unit}"),
-    };
-    let [first, last] = [trace.points.first(), trace.points.last()];
-    let [first, last] = [first, last].map(|point| point.map_or(0.0, |point| point.value));
-    let kind = if trace.wanted.steady.contains(&true) {
-        "steady motions"
-    } else {
-        "equilibria"
-    };
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "{kind} along {} from {} to {}{unit}, {} values:",
-        trace.name,
-        number(first),
-        number(last),
-        trace.points.len()
-    );
-    // A description of each value; consecutive values with the same description are merged into one line.
-    let words = |point: &vary::Point| match &point.motion {
-        Ok(motion) => {
-            let growing = motion
-                .modes
-                .modes
-                .iter()
-                .filter(|mode| mode.lambda.re > 0.0)
-                .count();
-            match growing {
-                0 => "no mode grows".to_owned(),
-                1 => "1 mode grows".to_owned(),
-                count => format!("{count} modes grow"),
-            }
-        }
-        Err(why) => format!("no solution is found: {why}"),
-    };
-    let mut index = 0;
-    while let Some(point) = trace.points.get(index) {
-        let description = words(point);
-        let later_points = &trace.points[index + 1..];
-        let more = later_points.iter().take_while(|next| {
-            words(next) == description && (next.continues || next.motion.is_err())
-        });
-        let count = more.count();
-        let end = &trace.points[index + count];
-        let range = match count {
-            0 => number(point.value),
-            _ => format!("{} to {}", number(point.value), number(end.value)),
-        };
-        let jump = match (point.motion.is_ok(), point.continues, index) {
-            (true, false, 1..) => " (a different motion from before)",
-            _ => "",
-        };
-        let _ = writeln!(text, "  {range}{unit}: {description}{jump}");
-        index += count + 1;
-    }
-    for critical in &trace.critical {
-        let Critical {
-            value,
-            growing,
-            oscillating,
-            lambda,
-            ..
-        } = critical;
-        let _ = write!(
-            text,
-            "\ncritical {} = {}{unit}: ",
-            trace.name,
-            number(*value)
-        );
-        let count = |list: &[usize; 2], verb: [&str; 2]| {
-            let before = match list[0] {
-                0 => "no mode".to_owned(),
-                1 => "1 mode".to_owned(),
-                n => format!("{n} modes"),
-            };
-            let after = match list[1] {
-                0 => "none".to_owned(),
-                n => n.to_string(),
-            };
-            let verb = verb[usize::from(list[0] > 1)];
-            format!("{before} {verb} before it, {after} after it")
-        };
-        let mut parts = Vec::new();
-        if growing[0] != growing[1] {
-            parts.push(count(growing, ["grows", "grow"]));
-        }
-        if oscillating[0] != oscillating[1] {
-            parts.push(count(oscillating, ["oscillates", "oscillate"]));
-        }
-        text.push_str(&parts.join("; "));
-        match lambda {
-            Some(lambda) if lambda.im > 0.0 => {
-                let _ = write!(text, ", at {} Hz", number(lambda.im / TAU));
-            }
-            _ => {}
-        }
-        text.push('\n');
-    }
-    text
-}
-
-/// The position of a steady motion, with one line for each coordinate.
-pub fn text_of_place(
-    names: &[&str],
-    units: &[&str],
-    start: &[f64],
-    wanted: &Wanted,
-    motion: &SteadyMotion,
-) -> String {
-    let mut text = String::new();
-    let width = names
-        .iter()
-        .map(|name| shown_name(name).chars().count())
-        .max();
-    let width = width.unwrap_or(0);
-    let found = &motion.found;
-    let times = if found.steps == 1 { "step" } else { "steps" };
-    let kind = if wanted.steady.contains(&true) {
-        "steady motion"
-    } else {
-        "equilibrium"
-    };
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "{kind}, found in {} {times} from the start:",
-        found.steps
-    );
-    for (k, (name, q)) in names.iter().zip(found.place.q()).enumerate() {
-        if let Some(state) = state_of(name) {
-            let unit = match unit_of_rate(name, units[k]).as_str() {
-                "1" => String::new(),
-                unit => format!(" {unit}"),
-            };
-            let _ = writeln!(text, "  {state:width$}  {}{unit}", number(motion.v[k]));
-            continue;
-        }
-        let (moved, unit) = (q - start[k], units[k]);
-        // Round-off, in rad or m, is not shown.
-        let q = if q.abs() <= 1e-12 { 0.0 } else { q };
-        let moved = if moved.abs() <= 1e-12 { 0.0 } else { moved };
-        let unit = if unit == "1" {
-            String::new()
-        } else {
-            format!(" {unit}")
-        };
-        let _ = write!(text, "  {name:width$}  {}{unit}", number(q));
-        if motion.v[k] != 0.0 || wanted.solved[k] {
-            let verb = if unit == " rad" { "turning" } else { "moving" };
-            let _ = write!(text, ", {verb} at {}{unit}/s", number(motion.v[k]));
-            if wanted.solved[k] {
-                text.push_str(" (found)");
-            }
-        }
-        if moved != 0.0 {
-            let _ = write!(text, ", moved by {}", number(moved));
-        }
-        text.push('\n');
-    }
-    text
-}
-
-fn text(
-    names: &[&str],
-    units: &[&str],
-    start: &[f64],
-    wanted: &Wanted,
-    motion: &SteadyMotion,
-) -> String {
-    let mut text = String::new();
-    let width = names
-        .iter()
-        .map(|name| shown_name(name).chars().count())
-        .max();
-    let width = width.unwrap_or(0);
-    let modes = &motion.modes;
-    text.push_str(&text_of_place(names, units, start, wanted, motion));
-    if modes.free > 0 {
-        let directions = directions(modes.free);
-        let _ = writeln!(
-            text,
-            "its position is not unique: it can change in {} independent {directions}",
-            modes.free
-        );
-    }
-    if is_moving(names, motion) && modes.drifts > 0 {
-        let directions = directions(modes.drifts);
-        let _ = writeln!(
-            text,
-            "its rates are not unique: they can change in {} independent {directions}",
-            modes.drifts
-        );
-    }
-    for (index, mode) in modes.modes.iter().enumerate() {
-        let Complex { re, im } = mode.lambda;
-        let _ = write!(text, "\nmode {}: ", index + 1);
-        let _ = match (mode.kind(), damping(mode.lambda)) {
-            ("free", _) => {
-                if mode.error > 0.0 {
-                    writeln!(text, "free, or slower than {} rad/s", number(mode.error))
-                } else {
-                    writeln!(text, "free, without a restoring force")
-                }
-            }
-            ("growing", _) => writeln!(
-                text,
-                "unstable, grows by a factor of e in {} s",
-                number(1.0 / re)
-            ),
-            ("decaying", _) => writeln!(text, "decays by a factor of e in {} s", number(-1.0 / re)),
-            (_, Some(ratio)) => {
-                let _ = write!(text, "{} Hz, {} rad/s, ", number(im / TAU), number(im));
-                if re > 0.0 {
-                    let _ = write!(
-                        text,
-                        "unstable, grows by a factor of e in {} s, ",
-                        number(1.0 / re)
-                    );
-                }
-                writeln!(text, "damping ratio {}", number(ratio))
-            }
-            _ => writeln!(text),
-        };
-        // All six printed digits must be correct.
-        if mode.error > 0.5e-6 * mode.lambda.norm() && mode.kind() != "free" {
-            let error = number(mode.error);
-            let _ = writeln!(text, "  accurate only to {error} rad/s");
-        }
-        for (name, x) in names.iter().zip(&mode.shape) {
-            // Amplitudes that are negligible beside 1, in rad or m, are not printed; `--json` includes them.
-            if x.norm() > 1e-12 {
-                let name = shown_name(name);
-                let _ = writeln!(text, "  {name:width$}  {}", amplitude(*x));
-            }
-        }
-    }
-    let Modes {
-        lost, lost_below, ..
-    } = modes;
-    if *lost > 0 {
-        let (motions, are) = if *lost == 1 {
-            ("motion", "is")
-        } else {
-            ("motions", "are")
-        };
-        let below = number(*lost_below);
-        let _ = writeln!(
-            text,
-            "\n{lost} more {motions} {are} slower than {below} rad/s, too slow compared with the others to be distinguished from rest"
-        );
-    }
-    text
-}
-
-fn directions(count: usize) -> &'static str {
-    if count == 1 {
-        "direction"
-    } else {
-        "directions"
-    }
-}
-
-/// A number with six digits, or fewer if exact.
-pub fn number(x: f64) -> String {
-    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
-    match rounded.abs() {
-        0.0 => "0".into(),
-        1e-3..1e6 => format!("{rounded}"),
-        _ => format!("{rounded:e}"),
-    }
-}
-
-/// A real amplitude with its sign, any other with its phase in degrees.
-fn amplitude(x: Complex<f64>) -> String {
-    // A phase that is round-off is dropped.
-    if x.im.abs() <= 1e-9 * x.norm() {
-        return number(x.re);
-    }
-    let degrees = format!("{:.1}", x.arg().to_degrees());
-    format!("{} at {degrees}°", number(x.norm()))
 }

@@ -21,7 +21,7 @@ use crate::failure::Failure;
 use crate::linearize::arrays::{Array, Content};
 use crate::linearize::{mat, npz};
 use crate::modes::{self, number};
-use crate::numbers::{self, by_name, shortest};
+use crate::numbers::{self, after_number, by_name, shortest};
 use crate::other_chart::{self, OtherChart};
 use crate::output::{self, Destination, ORBIT, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading, name_error, places};
@@ -556,26 +556,16 @@ fn text(orbit: &Orbit, periods: u32) -> String {
     }
     text.push_str("a start of the orbit:\n");
     let start = &orbit.start;
-    let width = start
-        .q
-        .iter()
-        .map(|(name, _)| state_of(name).as_deref().unwrap_or(name).chars().count())
-        .max()
-        .unwrap_or(0);
+    let width = numbers::width_of_names(start.q.iter().map(|(name, _)| name));
+    let unit_of = |name: &str| after_number(start.q.unit(name).unwrap_or("1"));
+    // Writing to a String cannot fail.
     for ((name, q), v) in start.q.iter().zip(&start.v.values) {
         if let Some(state) = state_of(name) {
-            let unit = match rate_unit(name, start.q.unit(name).unwrap_or("s")).as_str() {
-                "1" => String::new(),
-                unit => format!(" {unit}"),
-            };
+            let unit = after_number(&rate_unit(name, start.q.unit(name).unwrap_or("s")));
             let _ = writeln!(text, "  {state:width$} = {}{unit}", shortest(*v));
             continue;
         }
-        let unit = match start.q.unit(name) {
-            None | Some("1") => String::new(),
-            Some(unit) => format!(" {unit}"),
-        };
-        // Writing to a String cannot fail.
+        let unit = unit_of(name);
         let _ = writeln!(
             text,
             "  {name:width$} = {}{unit}, der({name}) = {}{unit}/s",
@@ -584,10 +574,7 @@ fn text(orbit: &Orbit, periods: u32) -> String {
         );
     }
     for (k, (name, _)) in start.q.iter().enumerate().filter(|(k, _)| orbit.shifts[*k]) {
-        let unit = match start.q.unit(name) {
-            None | Some("1") => String::new(),
-            Some(unit) => format!(" {unit}"),
-        };
+        let unit = unit_of(name);
         let _ = writeln!(
             text,
             "nothing depends on {name}, which advances by {}{unit} in a period",
@@ -617,14 +604,19 @@ fn text(orbit: &Orbit, periods: u32) -> String {
     }
     text.push_str("Floquet multipliers:\n");
     for one in orbit.multipliers.iter().filter(|one| one.value.im >= 0.0) {
-        let (re, im) = (number(one.value.re), number(one.value.im));
-        let value = match (one.value.im != 0.0, one.is_trivial) {
-            (_, true) => "1 along the motion".to_owned(),
-            (true, _) => format!("{re} ± {im}i, modulus {}", number(one.value.norm())),
-            (false, _) => re,
-        };
+        let value = text_of_multiplier(one);
         let _ = writeln!(text, "  {value}, accurate to {:.1e}", one.error);
     }
     let _ = writeln!(text, "{}", verdict(orbit));
     text
+}
+
+/// A multiplier, of a pair both at once.
+fn text_of_multiplier(one: &Multiplier) -> String {
+    let (re, im) = (number(one.value.re), number(one.value.im));
+    match (one.value.im != 0.0, one.is_trivial) {
+        (_, true) => "1 along the motion".to_owned(),
+        (true, _) => format!("{re} ± {im}i, modulus {}", number(one.value.norm())),
+        (false, _) => re,
+    }
 }

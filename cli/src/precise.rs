@@ -78,19 +78,7 @@ fn prepare(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
 /// # Errors
 /// If the spec or the call is invalid, or the run fails.
 pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
-    let requested_method = match call.method.as_str() {
-        AUTO => None,
-        name => Some(methods::named_or(name, &[])?),
-    };
-    if let Some(method) = requested_method
-        && !std::ptr::eq(method, &TAYLOR)
-        && (method.tableau.spectrum.is_some() || method.has_fixed_steps())
-    {
-        return Err(Failure::Call(format!(
-            "--precision dd: the method `{}` is not available; there are taylor, dop853, dopri5 and bs32",
-            method.tableau.name
-        )));
-    }
+    let requested_method = requested_method(call)?;
     let Ready { machine, start } = prepare(call, "--precision dd")?;
     machine.prepare_in::<DoubleDouble>().map_err(|none| {
         Failure::Run(format!(
@@ -132,59 +120,110 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
     let coarser = end_by(method, COARSER).map_err(Failure::run)?;
     let differences = differences(&end, &coarser);
     let (_, greatest) = worst(&differences);
-    let names: Vec<&str> = start.q.iter().map(|(name, _)| name).collect();
+    let result = PreciseResult {
+        machine: &machine,
+        start: &start,
+        until: call.until,
+        method,
+        tolerance,
+        end: &end,
+        difference: greatest,
+    };
     if call.spec.json {
+        output::line(format_args!("{:#}", result.document()));
+    } else {
+        result.print();
+    }
+    Ok(())
+}
+
+/// The method that the call names, if it names one; it must be known to the digits of double-doubles.
+fn requested_method(call: &call::Simulate) -> Result<Option<&'static Method>, Failure> {
+    let method = match call.method.as_str() {
+        AUTO => return Ok(None),
+        name => methods::named_or(name, &[])?,
+    };
+    if !std::ptr::eq(method, &TAYLOR)
+        && (method.tableau.spectrum.is_some() || method.has_fixed_steps())
+    {
+        return Err(Failure::Call(format!(
+            "--precision dd: the method `{}` is not available; there are taylor, dop853, dopri5 and bs32",
+            method.tableau.name
+        )));
+    }
+    Ok(Some(method))
+}
+
+/// A run in double-doubles, and how far a run at a coarser tolerance ends from it.
+struct PreciseResult<'r> {
+    machine: &'r InterpretedMachine,
+    start: &'r State<Named>,
+    until: f64,
+    method: &'static Method,
+    tolerance: f64,
+    end: &'r PreciseEnd,
+    difference: f64,
+}
+
+impl PreciseResult<'_> {
+    fn names(&self) -> Vec<&str> {
+        self.start.q.iter().map(|(name, _)| name).collect()
+    }
+
+    fn document(&self) -> Value {
+        let end = self.end;
         let of = |numbers: &[DoubleDouble]| -> Value {
-            let named = names.iter().zip(numbers);
-            let named = named.map(|(name, x)| ((*name).to_owned(), decimal(*x, DIGITS).into()));
+            let named = self.names().into_iter().zip(numbers);
+            let named = named.map(|(name, x)| (name.to_owned(), decimal(*x, DIGITS).into()));
             Value::Object(named.collect::<Map<_, _>>())
         };
-        let document = json!({
-            "t": call.until,
+        json!({
+            "t": self.until,
             "q": of(&end.q),
             "v": of(&end.v),
-            "method": method.tableau.name,
+            "method": self.method.tableau.name,
             "precision": "dd",
-            "tolerance": tolerance,
+            "tolerance": self.tolerance,
             "steps": end.work.steps,
             "rejected": end.work.rejected,
             "evaluations": end.work.evaluations,
-            "difference": greatest,
-        });
-        output::line(format_args!("{document:#}"));
-        return Ok(());
+            "difference": self.difference,
+        })
     }
-    output::line(format_args!(
-        "{}: t = {} s to {} s, {} in double-double, tolerance {}",
-        machine.name(),
-        shortest(start.t),
-        shortest(call.until),
-        method.tableau.title,
-        shortest(tolerance)
-    ));
-    let Work {
-        steps,
-        rejected,
-        evaluations,
-        ..
-    } = end.work;
-    output::line(format_args!(
-        "  {steps} steps, {rejected} rejected, {evaluations} evaluations"
-    ));
-    output::line(format_args!("  at the end"));
-    for (name, title, at) in printed_quantities(&names) {
-        let x = match at {
-            (0, i) => end.q[i],
-            (_, i) => end.v[i],
-        };
-        let pad = " ".repeat(title.saturating_sub(name.chars().count()));
-        output::line(format_args!("    {name}{pad} = {}", decimal(x, DIGITS)));
+
+    fn print(&self) {
+        output::line(format_args!(
+            "{}: t = {} s to {} s, {} in double-double, tolerance {}",
+            self.machine.name(),
+            shortest(self.start.t),
+            shortest(self.until),
+            self.method.tableau.title,
+            shortest(self.tolerance)
+        ));
+        let Work {
+            steps,
+            rejected,
+            evaluations,
+            ..
+        } = self.end.work;
+        output::line(format_args!(
+            "  {steps} steps, {rejected} rejected, {evaluations} evaluations"
+        ));
+        output::line(format_args!("  at the end"));
+        for (name, title, at) in printed_quantities(&self.names()) {
+            let x = match at {
+                (0, i) => self.end.q[i],
+                (_, i) => self.end.v[i],
+            };
+            let pad = " ".repeat(title.saturating_sub(name.chars().count()));
+            output::line(format_args!("    {name}{pad} = {}", decimal(x, DIGITS)));
+        }
+        output::line(format_args!(
+            "  a run at a tolerance of {:.1e} ends within {:.1e} (1 + |y|) of it",
+            COARSER * self.tolerance,
+            self.difference
+        ));
     }
-    output::line(format_args!(
-        "  a run at a tolerance of {:.1e} ends within {greatest:.1e} (1 + |y|) of it",
-        COARSER * tolerance
-    ));
-    Ok(())
 }
 
 /// The tolerance of a step by this method: that of the call, or its default.

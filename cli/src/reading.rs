@@ -17,7 +17,7 @@ use lagrangian_symbolic::{Dag, Rational};
 
 use crate::call::{self, Assignment};
 use crate::diagnostics;
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
 use crate::host::Specs;
 use crate::inputs;
 use crate::output::{Destination, keep_apart};
@@ -678,15 +678,9 @@ pub fn name_error(noun: &str, unknown: &UnknownName) -> Failure {
 /// The failure for an unknown name, optionally with a note about the same name elsewhere.
 fn unknown_name(noun: &str, unknown: &UnknownName, other: Option<&str>) -> Failure {
     let name = &unknown.name;
-    let known = || unknown.known.iter().map(String::as_str);
-    let help = match (
-        other,
-        lagrangian_spec::diagnostic::most_similar(name, known()),
-    ) {
-        (Some(other), _) => other.to_owned(),
-        (None, Some(near)) => format!("did you mean `{near}`?"),
-        (None, None) if unknown.known.is_empty() => "there are none".into(),
-        (None, None) => format!("there are: {}", unknown.known.join(", ")),
+    let help = match other {
+        Some(other) => other.to_owned(),
+        None => help_with(name, unknown.known.iter().map(String::as_str)),
     };
     Failure::Call(format!("no {noun} named `{name}`; {help}"))
 }

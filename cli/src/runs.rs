@@ -4,26 +4,26 @@ use std::path::{Path, PathBuf};
 
 use lagrangian::interpreted::{InterpretedMachine, Named, TableFile};
 use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{Crossing, InputLaw, Machine, Simulation, Solution, State, System};
+use lagrangian::{InputLaw, Machine, Simulation, Solution, State, System};
 use lagrangian_analysis::Curve;
 use lagrangian_analysis::curve::Interpolation;
 use lagrangian_mechanics::Compiled;
-use lagrangian_spec::diagnostic::{Report, most_similar};
+use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::stage;
 use lagrangian_spec::resolve::value_in;
 use lagrangian_spec::source::Sources;
-use lagrangian_sweep::charts::{self, ChartedPoints, Charts};
+use lagrangian_sweep::charts::{self, Charts};
 use lagrangian_sweep::plan::Law;
 use lagrangian_sweep::{signals, verdict};
 use lagrangian_symbolic::{Dag, Stage};
 
 use crate::call::{self, Assignment};
-use crate::evaluate::set_start;
 use crate::exactness::Exactness;
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
+use crate::machine_in_chart::MachineInChart;
 use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
 use crate::placed::Placed;
-use crate::reading::{self, ChartUse, InCharts, Reading};
+use crate::reading::{self, ChartUse, Reading};
 use crate::recording::{ColumnKind, Recording, Run};
 use crate::{inputs, methods, progress, simulate};
 
@@ -248,11 +248,10 @@ impl Columns {
 
 /// The failure that there is no such column.
 pub fn unknown(name: &str, columns: &Columns, run: &Path) -> Failure {
-    let names = || columns.columns.iter().map(|column| column.name.as_str());
-    let help = match most_similar(name, names()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
-    };
+    let help = help_with(
+        name,
+        columns.columns.iter().map(|column| column.name.as_str()),
+    );
     Failure::Call(format!(
         "--of {name}: {} has no quantity named `{name}`; {help}",
         run.display()
@@ -400,55 +399,6 @@ pub fn spec(
     run_spec(options, looks, files).map(|(_, recording)| Columns::of(recording))
 }
 
-/// The machine of a run with its start, in the Cartesian coordinates that `charts` of the spec names, if it names any and they can express
-/// all that the call gives.
-struct MachineInChart<'d> {
-    compiled: Compiled<'d>,
-    machine: InterpretedMachine,
-    start: State<Named>,
-    /// How the run is shown in the coordinates of the spec, if it is in others.
-    charts: Option<Charts>,
-}
-
-impl<'d> MachineInChart<'d> {
-    fn new(
-        InCharts {
-            compiled,
-            cartesian,
-            ..
-        }: InCharts<'d>,
-        start: &call::Start,
-        keep: &call::Keep,
-    ) -> Result<MachineInChart<'d>, Failure> {
-        let machine = reading::machine(&compiled, start)?;
-        reading::check_parameters(&machine)?;
-        let mut stated = machine.start();
-        set_start(&mut stated, start)?;
-        reading::check_kept(&stated, keep)?;
-        if let Some(cartesian) = cartesian {
-            let machine = reading::machine(&cartesian, &start.parameters_alone())?;
-            // A negative distance at the start, or a distance or an angle that is kept there, exists only in the chart of the spec.
-            let points = ChartedPoints::of(&compiled.model);
-            if points.check_kept(&keep.names).is_ok()
-                && let Ok((charts, start)) = Charts::begin(&points, machine.start(), &stated)
-            {
-                return Ok(MachineInChart {
-                    compiled: cartesian,
-                    machine,
-                    start,
-                    charts: Some(charts),
-                });
-            }
-        }
-        Ok(MachineInChart {
-            compiled,
-            machine,
-            start: stated,
-            charts: None,
-        })
-    }
-}
-
 /// Runs a spec; returns the run with its chart, and its recording in the coordinates of the spec.
 fn run_spec(
     options: &Options<'_>,
@@ -462,13 +412,14 @@ fn run_spec(
     let formulas = reading.formulas();
     let compiled = reading.compile_in_charts(&dag, files.iter().copied(), ChartUse::IfPossible);
     let compiled = compiled.map_err(inputs::as_call_failure)?;
-    let sources = compiled.sources.clone();
     let MachineInChart {
         compiled,
         machine,
         start,
         charts,
-    } = MachineInChart::new(compiled, &options.start, &runs.keep)?;
+        sources,
+        ..
+    } = MachineInChart::new(compiled, &options.start, &runs.keep, ChartUse::IfPossible)?;
     let output_count = compiled.model.outputs.len() - formulas;
     let mut numbers = output_count..;
     let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(output_count));
@@ -492,15 +443,10 @@ fn run_spec(
         SampleInstants::At(_) => {}
         SampleInstants::Crossing(formula, direction, level) => {
             check_crossing(formula, stage_of_last_output(&compiled))?;
-            let crossing = match direction {
-                call::Direction::Up => Crossing::Rising,
-                call::Direction::Down => Crossing::Falling,
-                call::Direction::Both => Crossing::Any,
-            };
             let level =
                 level.and_then(|(name, value)| level_of(&machine, output_count, name, value));
             let (place, level) = level.unwrap_or((compiled.model.outputs.len() - 1, 0.0));
-            simulation = simulation.event_on("crossing", crossing, move |seen| {
+            simulation = simulation.event_on("crossing", direction.crossing(), move |seen| {
                 seen.outputs.values.get(place).copied().unwrap_or(f64::NAN) - level
             });
         }
@@ -522,10 +468,9 @@ fn run_spec(
     }
     progress::now("simulating");
     let ran = simulation.run_interpreted(start).map_err(|error| {
-        match Placed::of(&error, &compiled.model, &sources) {
-            Some(placed) => Failure::Placed(Box::new(placed)),
-            None => Failure::Run(verdict::message_of(&error)),
-        }
+        let placed = Placed::of(&error, &compiled.model, &sources);
+        let message = || Failure::Run(verdict::message_of(&error));
+        placed.map_or_else(message, |placed| Failure::Placed(Box::new(placed)))
     })?;
     if let Some(objection) = verdict::energy_error(&ran) {
         return Err(Failure::Run(objection));

@@ -10,7 +10,7 @@ use lagrangian::{Machine, Sensitive, Simulation, State, System, Varied};
 use lagrangian_linear::starts::{self, Change};
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
-use lagrangian_spec::model::Variable;
+use lagrangian_spec::model::{Model, Variable};
 use lagrangian_spec::unit::integral_name;
 use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
@@ -58,19 +58,7 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     let mut cartesian = None;
     let (compiled, sources) = modes::compiled_with(reading, &dag, all, "sensitivities", |model| {
         cartesian = model.cartesian.take();
-        let n = model.coordinates.len();
-        differentiate(&mut model.derivatives, Variable::of_state(n));
-        let is_asked = |name: &str| {
-            let base = name.split('[').next().unwrap_or(name);
-            wanted.iter().any(|wanted| wanted == name || wanted == base)
-        };
-        let parameters = model.parameters.iter().enumerate();
-        let parameters = parameters.filter(|(_, slot)| is_asked(&slot.name.to_string()));
-        let parameters: Vec<Variable> = parameters.map(|(k, _)| Variable::Parameter(k)).collect();
-        let inputs = model.inputs.iter().enumerate();
-        let inputs = inputs.filter(|(_, slot)| is_asked(&slot.name.to_string()));
-        let inputs: Vec<Variable> = inputs.map(|(k, _)| Variable::Input(k)).collect();
-        differentiate(&mut model.derivatives, parameters.into_iter().chain(inputs));
+        ask_derivatives(model, &wanted);
         Ok(())
     })?;
     let machine = reading::machine(&compiled, &call.start)?;
@@ -87,6 +75,42 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     let machines = (&machine, chart.as_ref());
     let ran = run_with_derivatives(call, machines, &start, &variations, &observed);
     let (times, columns) = ran.map_err(|failure| failure.placed(&compiled.model, &sources))?;
+    write(&files, &machine, (&times, &columns), observed.len())?;
+    if call.spec.json {
+        output::line(format_args!(
+            "{:#}",
+            as_json(&times, &columns, observed.len())
+        ))
+    } else {
+        output::text(&text(&times, &columns))
+    }
+    Ok(())
+}
+
+/// Asks the model for the derivatives by its state, and by the parameters and inputs of these names.
+fn ask_derivatives(model: &mut Model<'_>, wanted: &[String]) {
+    let n = model.coordinates.len();
+    differentiate(&mut model.derivatives, Variable::of_state(n));
+    let is_asked = |name: &str| {
+        let base = name.split('[').next().unwrap_or(name);
+        wanted.iter().any(|wanted| wanted == name || wanted == base)
+    };
+    let parameters = model.parameters.iter().enumerate();
+    let parameters = parameters.filter(|(_, slot)| is_asked(&slot.name.to_string()));
+    let parameters: Vec<Variable> = parameters.map(|(k, _)| Variable::Parameter(k)).collect();
+    let inputs = model.inputs.iter().enumerate();
+    let inputs = inputs.filter(|(_, slot)| is_asked(&slot.name.to_string()));
+    let inputs: Vec<Variable> = inputs.map(|(k, _)| Variable::Input(k)).collect();
+    differentiate(&mut model.derivatives, parameters.into_iter().chain(inputs));
+}
+
+/// Writes table and drawing of the columns at these times, of which the first are `values` and the others their derivatives, which are drawn.
+fn write(
+    files: &[Option<Destination>; 2],
+    machine: &InterpretedMachine,
+    (times, columns): (&[f64], &[Column]),
+    values: usize,
+) -> Result<(), Failure> {
     if let Some(file) = &files[0] {
         let columns = columns.iter().map(|column| {
             (
@@ -94,7 +118,7 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
                 column.values.as_slice(),
             )
         });
-        let time = ("t [s]".to_owned(), times.as_slice());
+        let time = ("t [s]".to_owned(), times);
         table::write_columns(
             &std::iter::once(time).chain(columns).collect::<Vec<_>>(),
             file,
@@ -103,7 +127,7 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     if let Some(file) = &files[1] {
         let panes: Vec<Pane> = columns
             .iter()
-            .skip(observed.len())
+            .skip(values)
             .map(|column| Pane {
                 along: ["t [s]".to_owned(), header("derivative", Some(&column.unit))],
                 curves: vec![Curve {
@@ -118,14 +142,6 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
             })
             .collect();
         file.write_text(&drawing::svg(machine.name(), &panes).map_err(Failure::Run)?)?;
-    }
-    if call.spec.json {
-        output::line(format_args!(
-            "{:#}",
-            as_json(&times, &columns, observed.len())
-        ))
-    } else {
-        output::text(&text(&times, &columns))
     }
     Ok(())
 }
@@ -144,28 +160,12 @@ fn run_with_derivatives(
             "--method taylor: derivatives of a motion have no Taylor series".into(),
         ));
     }
-    let coordinates: Vec<String> = machine
-        .prepare()
-        .coordinates()
-        .map(|q| q.name.to_owned())
-        .collect();
     let is_held = machine.prepare().constraints().len() > 0;
     let collides = machine.prepare().unilateral_contacts().len() > 0;
     // If contacts open and close, no variational equations hold for the whole run, and in another chart there are others.
     let is_continued = collides || chart.is_some();
     let varied: &[Variation] = if is_continued { &[] } else { variations };
-    let mut sensitive = Sensitive::new(machine);
-    if is_held {
-        sensitive = sensitive.with_start_on_constraints();
-    }
-    for variation in varied {
-        sensitive = match variation.by {
-            By::Parameter(_) | By::Input(_) => sensitive.by(&variation.name),
-            By::Start(k) => sensitive.by_start(&coordinates[k]),
-            By::StartRate(k) => sensitive.by_start_rate(&coordinates[k]),
-        }
-        .map_err(Failure::run)?;
-    }
+    let sensitive = sensitive(machine, varied)?;
     let start = if is_held {
         let start = start_on_constraints(call, machine, start.clone())?;
         if let Some(constraint) = starts::dependent_constraint(machine, &start) {
@@ -225,6 +225,28 @@ fn run_with_derivatives(
         }
     }
     Ok((states.iter().map(|state| state.t).collect(), columns))
+}
+
+/// The machine with the derivatives of its motion.
+fn sensitive<'m>(
+    machine: &'m InterpretedMachine,
+    variations: &[Variation],
+) -> Result<Sensitive<'m, InterpretedMachine>, Failure> {
+    let system = machine.prepare();
+    let coordinates: Vec<&str> = system.coordinates().map(|q| q.name).collect();
+    let mut sensitive = Sensitive::new(machine);
+    if system.constraints().len() > 0 {
+        sensitive = sensitive.with_start_on_constraints();
+    }
+    for variation in variations {
+        sensitive = match variation.by {
+            By::Parameter(_) | By::Input(_) => sensitive.by(&variation.name),
+            By::Start(k) => sensitive.by_start(coordinates[k]),
+            By::StartRate(k) => sensitive.by_start_rate(coordinates[k]),
+        }
+        .map_err(Failure::run)?;
+    }
+    Ok(sensitive)
 }
 
 /// Gives a start its derivative in each direction: 1 for the number that the direction varies, otherwise 0.
@@ -292,42 +314,17 @@ fn check_differences(
     }
     let shares = shares(machine, variations);
     let tolerance = call.tolerance.min(FINE);
-    let end_at = |h: f64| -> Option<Vec<f64>> {
-        let mut changed = machine.clone();
-        let mut start = State {
-            t: from.t,
-            q: from.q.value.clone(),
-            v: from.v.value.clone(),
-        };
-        for (k, (variation, share)) in variations.iter().zip(&shares).enumerate() {
-            let change = h * share;
-            let value = match variation.by {
-                By::Parameter(index) => Some(machine.parameter_values()[index]),
-                By::Input(index) => Some(machine.prepare().default_inputs().values[index]),
-                By::Start(_) | By::StartRate(_) => None,
-            };
-            if let Some(value) = value {
-                changed.set(&variation.name, value + change).ok()?;
-            }
-            for (numbers, by) in [(&mut start.q, &from.q.by[k]), (&mut start.v, &from.v.by[k])] {
-                for (number, by) in numbers.values.iter_mut().zip(&by.values) {
-                    *number += change * by;
-                }
-            }
-        }
-        let run = Simulation::new(&changed)
-            .tolerance(tolerance)
-            .method(method)
-            .until(call.until)
-            .max_steps(call.max_steps)
-            .forget_steps()
-            .run_interpreted(start)
-            .ok()?;
-        let State { q, v, .. } = run.end();
-        Some(q.values.iter().chain(&v.values).copied().collect())
+    let changed_end = ChangedEnd {
+        call,
+        machine,
+        method,
+        tolerance,
+        variations,
+        shares: &shares,
+        from,
     };
     let difference = |h: f64| -> Option<Vec<f64>> {
-        let (after, before) = (end_at(h)?, end_at(-h)?);
+        let (after, before) = (changed_end.at(h)?, changed_end.at(-h)?);
         let pairs = after.iter().zip(&before);
         Some(
             pairs
@@ -366,6 +363,57 @@ fn check_differences(
         }
     }
     Ok(())
+}
+
+/// The ends of runs whose variables are changed along a generic direction.
+struct ChangedEnd<'a> {
+    call: &'a call::Sensitivities,
+    machine: &'a InterpretedMachine,
+    method: &'static Method,
+    tolerance: f64,
+    variations: &'a [Variation],
+    /// The direction.
+    shares: &'a [f64],
+    from: &'a State<Varied<Named>>,
+}
+
+impl ChangedEnd<'_> {
+    /// Coordinates and rates at the end, at this distance along the direction; `None` if the run fails.
+    fn at(&self, distance: f64) -> Option<Vec<f64>> {
+        let (machine, from) = (self.machine, self.from);
+        let mut changed = machine.clone();
+        let mut start = State {
+            t: from.t,
+            q: from.q.value.clone(),
+            v: from.v.value.clone(),
+        };
+        for (k, (variation, share)) in self.variations.iter().zip(self.shares).enumerate() {
+            let change = distance * share;
+            let value = match variation.by {
+                By::Parameter(index) => Some(machine.parameter_values()[index]),
+                By::Input(index) => Some(machine.prepare().default_inputs().values[index]),
+                By::Start(_) | By::StartRate(_) => None,
+            };
+            if let Some(value) = value {
+                changed.set(&variation.name, value + change).ok()?;
+            }
+            for (numbers, by) in [(&mut start.q, &from.q.by[k]), (&mut start.v, &from.v.by[k])] {
+                for (number, by) in numbers.values.iter_mut().zip(&by.values) {
+                    *number += change * by;
+                }
+            }
+        }
+        let run = Simulation::new(&changed)
+            .tolerance(self.tolerance)
+            .method(self.method)
+            .until(self.call.until)
+            .max_steps(self.call.max_steps)
+            .forget_steps()
+            .run_interpreted(start)
+            .ok()?;
+        let State { q, v, .. } = run.end();
+        Some(q.values.iter().chain(&v.values).copied().collect())
+    }
 }
 
 /// The share of each variable in a generic direction, in its unit.

@@ -1,38 +1,37 @@
 //! `lagrangian simulate`: the motion of a machine.
 
+mod summary;
+
 use std::iter;
 
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{
-    Ending, Error, LEAST_RELATIVE_TOLERANCE, Machine, MethodChoice, MethodReason, Simulation,
-    State, System, Warning,
+    Ending, Error, LEAST_RELATIVE_TOLERANCE, Machine, Simulation, State, System, Warning,
 };
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::source::Sources;
-use lagrangian_sweep::charts::{self, ChartedPoints, Charts};
+use lagrangian_sweep::charts::{self, Charts};
 use lagrangian_sweep::signals::{self, InputArgument};
 use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
-use lagrangian_units::state_of;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::call;
-use crate::collisions;
-use crate::contacts::{self, ContactSummary, Contacts};
-use crate::evaluate::set_start;
+use crate::contacts::{ContactSummary, Contacts};
 use crate::failure::Failure;
 use crate::global_error::{self, Estimate};
 use crate::inputs;
 use crate::interrupt::Interrupt;
+use crate::machine_in_chart::MachineInChart;
 use crate::methods::{self, AUTO};
-use crate::numbers::{by_name, shortest, states};
+use crate::numbers::shortest;
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::placed::Placed;
 use crate::precise;
 use crate::progress;
-use crate::reading::{self, ChartUse, InCharts, Reading};
+use crate::reading::{self, ChartUse, Reading};
 use crate::recording::{Recording, Run};
 use crate::report::{self, CallSettings, Live, Report};
 use crate::{plot, table};
@@ -156,6 +155,13 @@ impl Trouble<'_> {
 /// # Errors
 /// If the spec or the call is invalid, or the run fails. The part of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
+    let is_chosen = call.method == AUTO && call.precision == call::Precision::F64;
+    if call.one_of.is_some() && (!is_chosen || call.validated) {
+        return Err(Failure::Call(
+            "--one-of: only with --method auto, which chooses when to derive a series; other methods do not depend on the number of runs"
+                .into(),
+        ));
+    }
     if call.precision == call::Precision::Dd {
         return precise::in_double_doubles(call);
     }
@@ -283,33 +289,21 @@ impl<'d> Prepared<'d> {
         let laws = reading.drive(written)?;
         let formulas = reading.formulas();
         let compiled = reading.compile_in_charts(dag, files.all(), ChartUse::Required);
-        let InCharts {
+        let compiled = compiled.map_err(inputs::as_call_failure)?;
+        if call.live && compiled.cartesian.is_some() {
+            return Err(Failure::Call(
+                "--live: the page cannot run a machine with `charts`; leave out --live, or leave `charts` out of the spec"
+                    .into(),
+            ));
+        }
+        let MachineInChart {
             mut compiled,
-            cartesian,
+            mut machine,
+            start,
+            charts,
             series: text_of_series,
             sources,
-        } = compiled.map_err(inputs::as_call_failure)?;
-        let mut machine = reading::machine(&compiled, &call.start)?;
-        reading::check_parameters(&machine)?;
-        let mut start = machine.start();
-        set_start(&mut start, &call.start)?;
-        reading::check_kept(&start, &call.keep)?;
-        let mut charts = None;
-        if let Some(cartesian) = cartesian {
-            if call.live {
-                return Err(Failure::Call(
-                    "--live: the page cannot run a machine with `charts`; leave out --live, or leave `charts` out of the spec"
-                        .into(),
-                ));
-            }
-            machine = reading::machine(&cartesian, &call.start.parameters_alone())?;
-            let points = ChartedPoints::of(&compiled.model);
-            points.check_kept(&call.keep.names).map_err(Failure::Call)?;
-            let begun = Charts::begin(&points, machine.start(), &start);
-            let (made, begun) = begun.map_err(Failure::Call)?;
-            (start, charts) = (begun, Some(made));
-            compiled = cartesian;
-        }
+        } = MachineInChart::new(compiled, &call.start, &call.keep, ChartUse::Required)?;
         // Formulas of inputs are not outputs of the machine.
         let output_count = compiled.model.outputs.len() - formulas;
         compiled.model.outputs.truncate(output_count);
@@ -327,10 +321,7 @@ impl<'d> Prepared<'d> {
             let reason = reason.or_else(|| signals::without_series(&signals, &machine));
             if let Some(reason) = reason {
                 method = <&Method>::default();
-                let name = method.tableau.name;
-                let warning = format!("no Taylor series: {reason}; {name} is used");
-                output::print_error(format_args!("warning: {warning}"));
-                other_method = Some(warning);
+                other_method = Some(warn_without_series(&reason, method));
             }
             machine = machine.with_series(series);
         }
@@ -396,7 +387,7 @@ impl<'d> Prepared<'d> {
             .stop_if(move |_| interrupt.was_pressed());
         let simulation = reading::keep(simulation, &call.keep);
         if call.method == AUTO {
-            simulation.automatic()
+            simulation.automatic().one_of(call.one_of.unwrap_or(1))
         } else {
             simulation
         }
@@ -520,6 +511,14 @@ impl<'d> Prepared<'d> {
     }
 }
 
+/// Warns that there is no Taylor series, so that another method is used; returns the warning.
+fn warn_without_series(reason: &str, method: &Method) -> String {
+    let name = method.tableau.name;
+    let warning = format!("no Taylor series: {reason}; {name} is used");
+    output::print_error(format_args!("warning: {warning}"));
+    warning
+}
+
 /// The interval at which a run is recorded, in s.
 fn interval(call: &call::Simulate) -> f64 {
     call.every.unwrap_or(call.until.abs() / SAMPLES)
@@ -540,7 +539,8 @@ fn print(
     let interruption = trouble.interruption(run, call.until);
     let errors = trouble.errors();
     if call.spec.json {
-        let mut document = document(call, prepared, run, contacts, (&interruption, &errors));
+        let mut document =
+            summary::document(call, prepared, run, contacts, (&interruption, &errors));
         if let (Some(estimate), Value::Object(fields)) = (global_error, &mut document) {
             fields.insert("global_error".into(), estimate.json(run.end()));
         }
@@ -549,7 +549,7 @@ fn print(
         }
         output::line(format_args!("{document:#}"));
     } else {
-        print_summary(call, prepared, run, contacts);
+        summary::print(call, prepared, run, contacts);
         for line in global_error
             .into_iter()
             .flat_map(|estimate| estimate.lines(run.end()))
@@ -649,205 +649,5 @@ pub fn recorded_states(run: &Run) -> &[State<Named>] {
     match run.samples() {
         [] => std::slice::from_ref(run.start()),
         states => states,
-    }
-}
-
-fn document(
-    call: &call::Simulate,
-    prepared: &Prepared<'_>,
-    run: &Run,
-    contacts: &[ContactSummary],
-    (interruption, errors): (&Option<String>, &[String]),
-) -> Value {
-    let statistics = run.statistics();
-    let end = prepared.shown(run.end());
-    let events: Vec<Value> = contacts::other_events(run.events(), contacts)
-        .map(|event| json!({ "t": event.state.t, "name": event.name }))
-        .collect();
-    let warnings = prepared.other_method.clone().into_iter();
-    let warnings = warnings.chain(run.warnings().iter().map(ToString::to_string));
-    let warnings = warnings.chain(contacts.iter().flat_map(ContactSummary::warnings));
-    let warnings = warnings.chain(interruption.iter().cloned());
-    let warnings: Vec<String> = warnings.collect();
-    let mut document = json!({
-        "t": end.t,
-        "q": by_name(&end.q),
-        "v": by_name(&end.v),
-        "steps": statistics.steps,
-        "rejected": statistics.rejected,
-        "evaluations": statistics.evaluations,
-        "seconds": statistics.seconds,
-        "energy_residual": run.energy_balance().map(|balance| balance.residual()),
-        "constraint_residual": statistics.constraint_residual,
-        "events": events,
-        "warnings": warnings,
-    });
-    if let Value::Object(fields) = &mut document {
-        if let Some(states) = states(&end.v) {
-            fields.insert("states".into(), states);
-        }
-        if !call.inputs.is_empty() {
-            let inputs = call.inputs.iter();
-            let inputs = inputs.map(|input| (input.name.clone(), input.value.clone().into()));
-            fields.insert("inputs".into(), Value::Object(inputs.collect()));
-        }
-        if !contacts.is_empty() {
-            let contacts = contacts.iter().map(ContactSummary::json);
-            fields.insert("contacts".into(), contacts.collect());
-        }
-        if !run.choices().is_empty() {
-            let choice = |choice: &MethodChoice| {
-                json!({
-                    "t": choice.t,
-                    "method": choice.method.tableau.name,
-                    "reason": choice.reason.to_string(),
-                })
-            };
-            let methods = run.choices().iter().map(choice);
-            fields.insert("methods".into(), methods.collect());
-        }
-        for (name, value) in collisions::fields(run, &|state| prepared.shown(state)) {
-            fields.insert(name.into(), value);
-        }
-        if interruption.is_some() {
-            fields.insert("interrupted".into(), true.into());
-        }
-        if !errors.is_empty() {
-            fields.insert("error".into(), errors.join("; ").into());
-        }
-    }
-    document
-}
-
-/// Prints how long a run went by series while its contacts were open, and otherwise.
-fn print_flights(run: &Run) {
-    let choices = run.choices();
-    let ends = (choices.iter().skip(1).map(|choice| choice.t)).chain([run.end().t]);
-    let first = choices
-        .iter()
-        .position(|choice| std::ptr::eq(choice.method, &TAYLOR));
-    let (mut in_series, mut otherwise) = (0.0, 0.0);
-    for (choice, end) in choices.iter().zip(ends).skip(first.unwrap_or(0)) {
-        if std::ptr::eq(choice.method, &TAYLOR) {
-            in_series += end - choice.t;
-        } else {
-            otherwise += end - choice.t;
-        }
-    }
-    output::line(format_args!(
-        "  taylor while all contacts were open, {in_series:.6} s; dop853 while one was closed, {otherwise:.6} s"
-    ));
-}
-
-fn print_summary(
-    call: &call::Simulate,
-    prepared: &Prepared<'_>,
-    run: &Run,
-    contacts: &[ContactSummary],
-) {
-    let statistics = run.statistics();
-    let (start, end) = (run.start(), prepared.shown(run.end()));
-    output::line(format_args!(
-        "{}: t = {} s to {} s, {}",
-        prepared.machine.name(),
-        shortest(start.t),
-        shortest(end.t),
-        prepared.method.tableau.title
-    ));
-    output::line(format_args!(
-        "  {} steps, {} rejected, {} evaluations, {:.3} s",
-        statistics.steps, statistics.rejected, statistics.evaluations, statistics.seconds
-    ));
-    // If stiffness was never found, the choice of methods is not mentioned.
-    let follows_contacts =
-        |reason: &MethodReason| matches!(reason, MethodReason::Open | MethodReason::Closed);
-    let (with_contacts, others): (Vec<&MethodChoice>, Vec<_>) =
-        (run.choices().iter()).partition(|choice| follows_contacts(&choice.reason));
-    if others.len() > 1 {
-        for choice in others {
-            output::line(format_args!(
-                "  {} from t = {} s: {}",
-                choice.method.tableau.name,
-                shortest(choice.t),
-                choice.reason
-            ));
-        }
-    }
-    if !with_contacts.is_empty() {
-        print_flights(run);
-    }
-    if !call.inputs.is_empty() {
-        output::line(format_args!("  inputs"));
-    }
-    for input in &call.inputs {
-        output::line(format_args!("    {} = {}", input.name, input.value));
-    }
-    let width = end
-        .q
-        .iter()
-        .map(|(name, _)| state_of(name).map_or(name.chars().count(), |state| state.chars().count()))
-        .max()
-        .unwrap_or(0);
-    output::line(format_args!("  at the end"));
-    for ((name, q), (_, v)) in end.q.iter().zip(end.v.iter()) {
-        if let Some(state) = state_of(name) {
-            let pad = " ".repeat(width.saturating_sub(state.chars().count()));
-            output::line(format_args!("    {state}{pad} = {}", shortest(v)));
-            continue;
-        }
-        let pad = " ".repeat(width - name.chars().count());
-        output::line(format_args!(
-            "    {name}{pad} = {:<24} der({name}){pad} = {}",
-            shortest(q),
-            shortest(v)
-        ));
-    }
-    if let Some(balance) = run.energy_balance() {
-        output::line(format_args!("  energy [J]"));
-        output::line(format_args!(
-            "    at the start {:.6e}, at the end {:.6e}",
-            balance.start, balance.end
-        ));
-        output::line(format_args!(
-            "    work of drives and forces {:.6e}, dissipated {:.6e}",
-            balance.work, balance.dissipated
-        ));
-        output::line(format_args!(
-            "    residual {:.3e}, {:.1e} of the energy exchanged",
-            balance.residual(),
-            balance.relative()
-        ));
-    }
-    if run.system().constraints().len() > 0 {
-        output::line(format_args!(
-            "  constraints: residual {:.1e}, relative to their terms",
-            statistics.constraint_residual
-        ));
-    }
-    if !contacts.is_empty() {
-        output::line(format_args!("  rolling contacts"));
-    }
-    for contact in contacts {
-        output::line(format_args!("    {}", contact.line()));
-    }
-    let collisions = collisions::lines(run);
-    if !collisions.is_empty() {
-        output::line(format_args!("  unilateral contacts"));
-    }
-    for line in collisions {
-        output::line(format_args!("    {line}"));
-    }
-    let events = contacts::other_events(run.events(), contacts);
-    for event in events.filter(|event| !collisions::is_of_contact(run, event)) {
-        output::line(format_args!(
-            "  event {} at t = {} s",
-            event.name, event.state.t
-        ));
-    }
-    for warning in run.warnings() {
-        output::line(format_args!("  warning: {warning}"));
-    }
-    for warning in contacts.iter().flat_map(ContactSummary::warnings) {
-        output::line(format_args!("  warning: {warning}"));
     }
 }

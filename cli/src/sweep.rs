@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
+use lagrangian::Method;
 use lagrangian::interpreted::Engine;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::Model;
@@ -216,12 +217,13 @@ fn print_summary(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u6
         output::line(format_args!("{document:#}"));
         return;
     }
+    let usual = <&Method>::default().tableau.name;
     let speed = now as f64 / seconds.max(1e-9);
     output::line(format_args!(
         "{runs} runs, {failed} failed, {seconds:.1} s ({speed:.0} runs per second), {shown}"
     ));
-    // If no run changed its method, the choice of methods is not mentioned, as by `simulate`.
-    if methods.keys().any(|names| names.contains(", ")) {
+    // If all runs went by the usual method, the choice is not mentioned, as by `simulate`.
+    if methods.keys().any(|names| names != usual) {
         for (names, runs) in methods {
             output::line(format_args!("  {names}: {runs} runs"));
         }

@@ -3,7 +3,7 @@
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{SourceId, Span};
 use lagrangian_spec::token::{self, Delimiter, Token, TokenKind};
-use proc_macro2::{Group, Spacing, TokenStream, TokenTree};
+use proc_macro2::{Group, Literal, Spacing, TokenStream, TokenTree};
 
 /// The tokens of a macro body; token k has the span `places[k]`.
 #[derive(Default)]
@@ -49,6 +49,36 @@ impl Flat {
         });
     }
 
+    /// Opens a bracket; returns how it closes. Invisible brackets made by a `macro_rules!` group an expression like visible ones, unless they
+    /// hold a single token.
+    fn open(&mut self, group: &Group, source: SourceId) -> Option<(Delimiter, proc_macro2::Span)> {
+        let delimiter = match group.delimiter() {
+            proc_macro2::Delimiter::Brace => Delimiter::Brace,
+            proc_macro2::Delimiter::Bracket => Delimiter::Bracket,
+            proc_macro2::Delimiter::Parenthesis | proc_macro2::Delimiter::None => {
+                Delimiter::Parenthesis
+            }
+        };
+        if group.delimiter() == proc_macro2::Delimiter::None && is_single(group) {
+            return None;
+        }
+        let (kind, text) = (TokenKind::Open(delimiter), open_text(delimiter));
+        self.push(source, kind, text, false, group.span_open());
+        Some((delimiter, group.span_close()))
+    }
+
+    fn literal(&mut self, literal: &Literal, source: SourceId, report: &mut Report) {
+        let mut text = literal.to_string();
+        // Another macro may produce `-1` as one token.
+        if let Some(positive) = text.strip_prefix('-') {
+            self.push(source, TokenKind::Punct('-'), "-", false, literal.span());
+            text = positive.to_owned();
+        }
+        let span = self.next_span(source);
+        self.tokens.push(token::literal(&text, span, report));
+        self.places.push(literal.span());
+    }
+
     fn next_span(&self, source: SourceId) -> Span {
         let at = self.tokens.len() as u32;
         Span::new(source, at, at + 1)
@@ -78,29 +108,9 @@ pub fn flatten(stream: TokenStream, source: SourceId, report: &mut Report) -> Fl
         };
         match tree {
             TokenTree::Group(group) => {
-                // Invisible brackets made by a `macro_rules!` group an expression like visible ones.
-                let delimiter = match group.delimiter() {
-                    proc_macro2::Delimiter::Brace => Delimiter::Brace,
-                    proc_macro2::Delimiter::Bracket => Delimiter::Bracket,
-                    proc_macro2::Delimiter::Parenthesis | proc_macro2::Delimiter::None => {
-                        Delimiter::Parenthesis
-                    }
-                };
-                let is_single =
-                    group.delimiter() == proc_macro2::Delimiter::None && is_single(&group);
                 let inner = group.stream().into_iter();
                 open.push((std::mem::replace(&mut tokens, inner), closing));
-                closing = None;
-                if !is_single {
-                    flat.push(
-                        source,
-                        TokenKind::Open(delimiter),
-                        open_text(delimiter),
-                        false,
-                        group.span_open(),
-                    );
-                    closing = Some((delimiter, group.span_close()));
-                }
+                closing = flat.open(&group, source);
             }
             TokenTree::Ident(ident) => {
                 let text = ident.to_string();
@@ -130,22 +140,7 @@ pub fn flatten(stream: TokenStream, source: SourceId, report: &mut Report) -> Fl
                     punct.span(),
                 );
             }
-            TokenTree::Literal(literal) => {
-                let span = flat.next_span(source);
-                let mut text = literal.to_string();
-                // Another macro may produce `-1` as one token.
-                if let Some(positive) = text.strip_prefix('-') {
-                    flat.push(source, TokenKind::Punct('-'), "-", false, literal.span());
-                    text = positive.to_owned();
-                }
-                let span = if flat.next_span(source) == span {
-                    span
-                } else {
-                    flat.next_span(source)
-                };
-                flat.tokens.push(token::literal(&text, span, report));
-                flat.places.push(literal.span());
-            }
+            TokenTree::Literal(literal) => flat.literal(&literal, source, report),
         }
     }
 }

@@ -1557,8 +1557,9 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
-    /// how independent these are. Only of machines whose constraints are independent.
+    /// Residuals of positions and rates, rows of `G`, the smallest displacements onto the
+    /// constraints, and how independent these are. Only for machines whose constraints
+    /// are independent.
     ///
     /// A pivot that vanishes is an error.
     pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 7], v: &'a [S; 7] })
@@ -2009,7 +2010,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     t2 * (t2 * p.half_c0)
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = mom*der(beta)

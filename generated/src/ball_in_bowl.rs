@@ -856,7 +856,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     p.m_g * z
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = m*der(x)*der(der(x)) + m*der(y)*der(der(y)) + m*der(z)*der(der(z)) + J*der(a)*der(der(a))

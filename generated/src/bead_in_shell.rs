@@ -1,8 +1,9 @@
 // @generated from machines/bead_in_shell.machine by `cargo xtask generate`; edits are lost.
 
 //! A bead between two rough spherical shells, which hold it from both sides: a spherical pendulum
-//! with dry friction. It
-//! presses outwards with what keeps it on its way, also where it goes over the top.
+//! with dry friction. The
+//! reaction of the shells keeps it at its distance from the centre, also where it passes over
+//! the top.
 //!
 //! 2 coordinates, 5 parameters. Arithmetic of one call:
 //!
@@ -36,8 +37,9 @@
 #![allow(rustdoc::all)]
 
 /// A bead between two rough spherical shells, which hold it from both sides: a spherical pendulum
-/// with dry friction. It
-/// presses outwards with what keeps it on its way, also where it goes over the top.
+/// with dry friction. The
+/// reaction of the shells keeps it at its distance from the centre, also where it passes over
+/// the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeadInShell<S = f64> {
     /// Mass of the bead. Unit: `kg`. Default: 0.05.
@@ -353,9 +355,9 @@ pub fn slip_bias<S: ::lagrangian::emitted::Scalar>(
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// What there is without friction, and what a unit of each friction force adds to it:
-    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
-    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without
+    /// friction, and the change of each by a unit of each friction force; followed by the
+    /// coefficients of friction. A machine with guided contacts has this in place of accelerations
     /// and multipliers.
     ///
     /// A pivot that vanishes is an error.

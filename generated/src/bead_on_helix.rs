@@ -1,9 +1,9 @@
 // @generated from machines/bead_on_helix.machine by `cargo xtask generate`; edits are lost.
 
-//! A bead on a rough helix about a vertical axis, under gravity. The wire presses on it in two
-//! directions: outwards as fast as
-//! it goes, and against its weight; so it does not accelerate for ever, but comes to a speed at
-//! which friction takes what gravity gives.
+//! A bead on a rough helix about a vertical axis, under gravity. The wire holds it in two
+//! directions: against the centrifugal
+//! force, which grows with the speed, and against its weight. Therefore the bead approaches a speed
+//! at which friction balances gravity.
 //!
 //! 1 coordinate, 6 parameters. Arithmetic of one call:
 //!
@@ -30,10 +30,10 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A bead on a rough helix about a vertical axis, under gravity. The wire presses on it in two
-/// directions: outwards as fast as
-/// it goes, and against its weight; so it does not accelerate for ever, but comes to a speed at
-/// which friction takes what gravity gives.
+/// A bead on a rough helix about a vertical axis, under gravity. The wire holds it in two
+/// directions: against the centrifugal
+/// force, which grows with the speed, and against its weight. Therefore the bead approaches a speed
+/// at which friction balances gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeadOnHelix<S = f64> {
     /// Mass of the bead. Unit: `kg`. Default: 0.01.
@@ -213,9 +213,9 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] 
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// What there is without friction, and what a unit of each friction force adds to it:
-    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
-    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without
+    /// friction, and the change of each by a unit of each friction force; followed by the
+    /// coefficients of friction. A machine with guided contacts has this in place of accelerations
     /// and multipliers.
     ///
     /// A pivot that vanishes is an error.

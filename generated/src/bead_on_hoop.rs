@@ -1,8 +1,8 @@
 // @generated from machines/bead_on_hoop.machine by `cargo xtask generate`; edits are lost.
 
 //! A bead on a rough hoop that is turned about its vertical diameter. It sticks wherever friction
-//! can hold it; the hoop presses
-//! on it in its own plane, and across it while the bead slides.
+//! can hold it. The reaction of the
+//! hoop lies in its plane, and while the bead slides it also has a component across this plane.
 //!
 //! 1 coordinate, 5 parameters. Arithmetic of one call:
 //!
@@ -34,8 +34,8 @@
 #![allow(rustdoc::all)]
 
 /// A bead on a rough hoop that is turned about its vertical diameter. It sticks wherever friction
-/// can hold it; the hoop presses
-/// on it in its own plane, and across it while the bead slides.
+/// can hold it. The reaction of the
+/// hoop lies in its plane, and while the bead slides it also has a component across this plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeadOnHoop<S = f64> {
     /// Mass of the bead. Unit: `kg`. Default: 0.01.
@@ -226,9 +226,9 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] 
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// What there is without friction, and what a unit of each friction force adds to it:
-    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
-    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without
+    /// friction, and the change of each by a unit of each friction force; followed by the
+    /// coefficients of friction. A machine with guided contacts has this in place of accelerations
     /// and multipliers.
     ///
     /// A pivot that vanishes is an error.
@@ -320,7 +320,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     p.minus_m_r_g * cos_theta
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = 2*m*r^2*omega^2*sin(theta)*cos(theta)*der(theta)

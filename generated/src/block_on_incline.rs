@@ -1,7 +1,7 @@
 // @generated from machines/block_on_incline.machine by `cargo xtask generate`; edits are lost.
 
 //! A block on an incline whose angle may grow with time: it sticks until tan α exceeds the
-//! coefficient of friction, and then slides with what is left of its weight.
+//! coefficient of friction, and then slides.
 //!
 //! 1 coordinate, 6 parameters. Arithmetic of one call:
 //!
@@ -32,7 +32,7 @@
 #![allow(rustdoc::all)]
 
 /// A block on an incline whose angle may grow with time: it sticks until tan α exceeds the
-/// coefficient of friction, and then slides with what is left of its weight.
+/// coefficient of friction, and then slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlockOnIncline<S = f64> {
     /// Mass of the block. Unit: `kg`. Default: 2.
@@ -209,9 +209,9 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>() -> [S; 1] {
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// What there is without friction, and what a unit of each friction force adds to it:
-    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
-    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without
+    /// friction, and the change of each by a unit of each friction force; followed by the
+    /// coefficients of friction. A machine with guided contacts has this in place of accelerations
     /// and multipliers.
     ///
     /// A pivot that vanishes is an error.
@@ -296,7 +296,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S,
     t2 * (p.minus_m_g * s)
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = 2*m*rate^2*s*der(s) - m*rate*g*cos(rate*t + alpha)*s

@@ -204,8 +204,8 @@ pub fn contact_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 
     [zero, one, zero, one, zero, p.r]
 }
 
-/// Coefficients of unilateral contacts: restitution along the normal and along the tangent (of
-/// contacts that yield the parameters of their force), friction, static friction.
+/// Coefficients of unilateral contacts: restitution along the normal and along the tangent (for
+/// compliant contacts the parameters of their force), friction, static friction.
 ///
 /// ```text
 /// [lane.friction] = mu

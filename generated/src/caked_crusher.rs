@@ -1,8 +1,8 @@
 // @generated from machines/caked_crusher.machine by `cargo xtask generate`; edits are lost.
 
-//! The crush process with the crushed material caked on the pestle, delta thick, instead of
-//! lying in
-//! the mortar.
+//! The crush process with a layer of crushed material of thickness delta caked on the pestle,
+//! instead of
+//! in the mortar.
 //!
 //! 9 coordinates, 25 parameters. Arithmetic of one call:
 //!
@@ -40,9 +40,9 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// The crush process with the crushed material caked on the pestle, delta thick, instead of
-/// lying in
-/// the mortar.
+/// The crush process with a layer of crushed material of thickness delta caked on the pestle,
+/// instead of
+/// in the mortar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CakedCrusher<S = f64> {
     /// Mass of the platform. Unit: `kg`. Default: 600.
@@ -1318,7 +1318,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     (t5 * t5 + t3 * t3) * p.half_by + (t4 * t4 + t2 * t2) * p.half_bx
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = m0*e*omega*cos(omega*t)*der(der(y)) - m0*e*omega*sin(omega*t)*der(der(x))
@@ -1353,7 +1353,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     t8 * p.m0_e_omega
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2

@@ -345,7 +345,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]
     x_dot * (x_dot * p.half_rail) + theta_dot * (theta_dot * p.half_hinge)
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = der(x)*push
@@ -355,7 +355,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 2], u: &Inputs<S>) ->
     u.push * x_dot
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = rail*der(x)^2 + hinge*der(theta)^2

@@ -1,6 +1,6 @@
 // @generated from machines/chain_relative.machine by `cargo xtask generate`; edits are lost.
 
-//! The chain once more, each angle measured from the bar before it. Same motion, other coordinates.
+//! The chain with each angle measured from the previous bar: the same motion in other coordinates.
 //!
 //! 8 coordinates, 4 parameters. Arithmetic of one call:
 //!
@@ -30,7 +30,7 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// The chain once more, each angle measured from the bar before it. Same motion, other coordinates.
+/// The chain with each angle measured from the previous bar: the same motion in other coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainRelative<S = f64> {
     /// Length, mass and inertia (about its middle) of a bar. Unit: `m`. Default: 0.2.

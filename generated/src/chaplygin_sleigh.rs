@@ -1,8 +1,8 @@
 // @generated from machines/chaplygin_sleigh.machine by `cargo xtask generate`; edits are lost.
 
-//! A sleigh of S. A. Chaplygin: a rigid body on ice with one blade, which goes along itself
-//! only; its
-//! mass centre is ahead of the blade. It turns until it runs with the mass centre in front.
+//! The sleigh of S. A. Chaplygin: a rigid body on ice with one blade, which moves only along its
+//! own direction;
+//! the mass centre is ahead of the blade. It turns until it runs with the mass centre in front.
 //!
 //! 3 coordinates, 3 parameters, 1 output. Arithmetic of one call:
 //!
@@ -36,9 +36,9 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A sleigh of S. A. Chaplygin: a rigid body on ice with one blade, which goes along itself
-/// only; its
-/// mass centre is ahead of the blade. It turns until it runs with the mass centre in front.
+/// The sleigh of S. A. Chaplygin: a rigid body on ice with one blade, which moves only along its
+/// own direction;
+/// the mass centre is ahead of the blade. It turns until it runs with the mass centre in front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChaplyginSleigh<S = f64> {
     /// `m`. Unit: `kg`. Default: 1.
@@ -341,8 +341,9 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
-    /// how independent these are. Only of machines whose constraints are independent.
+    /// Residuals of positions and rates, rows of `G`, the smallest displacements onto the
+    /// constraints, and how independent these are. Only for machines whose constraints
+    /// are independent.
     ///
     /// A pivot that vanishes is an error.
     pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })

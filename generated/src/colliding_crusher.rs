@@ -780,8 +780,8 @@ pub fn contact_bias<S: ::lagrangian::emitted::Scalar>(q: &[S; 9], v: &[S; 9]) ->
     [bias1, bias2, bias3, bias4]
 }
 
-/// Coefficients of unilateral contacts: restitution along the normal and along the tangent (of
-/// contacts that yield the parameters of their force), friction, static friction.
+/// Coefficients of unilateral contacts: restitution along the normal and along the tangent (for
+/// compliant contacts the parameters of their force), friction, static friction.
 ///
 /// ```text
 /// [outer.restitution] = eN
@@ -863,7 +863,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     (t4 * t4 + t2 * t2 + (t5 * t5 + t3 * t3)) * p.quarter_b
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = m0*e*w*cos(w*t)*der(der(y)) - m0*e*w*sin(w*t)*der(der(x))
@@ -883,7 +883,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, a: &[S
     p.minus_m0_e_w * t5
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = b*der(x)^2 + b*der(y)^2 + (xc^2 + yc^2)*b*der(theta)^2

@@ -874,7 +874,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     t1 * (t1 * p.half_by) + (t0 * (t0 * p.half_bx) + t2)
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = m0*e*w*cos(w*t)*der(der(y)) - m0*e*w*sin(w*t)*der(der(x))
@@ -907,7 +907,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     t8 * p.m0_e_w
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = d1*der(s1)^2 + d2*der(s2)^2 + bx*(der(x) - yb*der(theta))^2 + by*(der(y) + xb*der(theta))^2

@@ -394,8 +394,8 @@ pub fn contact_bias<S: ::lagrangian::emitted::Scalar>(
     [zero, bias2, zero, bias4]
 }
 
-/// Coefficients of unilateral contacts: restitution along the normal and along the tangent (of
-/// contacts that yield the parameters of their force), friction, static friction.
+/// Coefficients of unilateral contacts: restitution along the normal and along the tangent (for
+/// compliant contacts the parameters of their force), friction, static friction.
 ///
 /// ```text
 /// [cloth.restitution] = e

@@ -959,7 +959,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     (t4 * t4 + t2 * t2) * p.half_bx + t6 * (t6 * p.half_drag2) + t9
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = m0*e*omega*cos(omega*t)*der(der(y)) - m0*e*omega*sin(omega*t)*der(der(x))
@@ -994,7 +994,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     t8 * p.m0_e_omega
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = d1*der(s1)^2 + d2*der(s2)^2 + drag1*(s1*der(phi1) - R*der(theta) + r1*der(theta1))^2

@@ -247,7 +247,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]
     phi_dot * (phi_dot * p.half_b)
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = i*U
@@ -264,7 +264,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     t0 * i_dot + (i_dot * t1 + i_dot * (u.U - t0 - t1))
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = b*der(phi)^2 + R*i^2

@@ -522,8 +522,9 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
-    /// how independent these are. Only of machines whose constraints are independent.
+    /// Residuals of positions and rates, rows of `G`, the smallest displacements onto the
+    /// constraints, and how independent these are. Only for machines whose constraints
+    /// are independent.
     ///
     /// A pivot that vanishes is an error.
     pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
@@ -630,7 +631,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     -(p.M_g * s - cos_alpha * p.minus_two_l_m_g)
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = der(phi)*drive

@@ -285,7 +285,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S,
     p.m_g * t1
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = -m*a*omega*sin(omega*t)*(l*(-sin(theta)*der(der(theta)) - cos(theta)*der(theta)^2) -

@@ -1,6 +1,6 @@
 // @generated from machines/motor_crusher.machine by `cargo xtask generate`; edits are lost.
 
-//! A crusher whose debalance does not turn as told but as its motor can: its angle psi is a
+//! A crusher whose debalance is driven by a motor of limited torque: its angle psi is a
 //! coordinate. The motor, an induction machine on the foundation, turns it by a cardan shaft, with
 //! the torque that M. Kloss gave in 1909 for a slip s = (ω − ψ′)/ω,
 //!
@@ -9,14 +9,15 @@
 //! written below without a division by s: it is greatest, Mk, at the slip sk, and zero at the
 //! synchronous speed ω.
 //!
-//! The faster the debalance turns, the more the dampers of the shaken platform take. In steady
-//! motion the mean power of the motor is the mean power dissipated. With the debalance's axis at
+//! The faster the debalance turns, the more the dampers of the shaken platform dissipate. In steady
+//! motion the mean power of the motor equals the mean power dissipated. With the debalance's
+//! axis at
 //! the centre of the platform, on springs and dampers that are in total c and b along both axes,
-//! the centre runs round a circle of radius X, and speed and torque are constant:
+//! the centre moves on a circle of radius X, and speed and torque are constant:
 //!
 //! torque = b ψ′ X², X = m0 e ψ′² / √((c − (m + m0) ψ′²)² + (b ψ′)²)
 //!
-//! This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor too weak to run through it hangs
+//! This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor too weak to pass it is caught
 //! there, and shakes the platform harder instead of turning faster: the Sommerfeld effect (here for
 //! Mk below some 165 N·m). With a large Mk the slip vanishes, and the motion is that of
 //! `vibrating_crusher.machine`.
@@ -55,7 +56,7 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A crusher whose debalance does not turn as told but as its motor can: its angle psi is a
+/// A crusher whose debalance is driven by a motor of limited torque: its angle psi is a
 /// coordinate. The motor, an induction machine on the foundation, turns it by a cardan shaft, with
 /// the torque that M. Kloss gave in 1909 for a slip s = (ω − ψ′)/ω,
 ///
@@ -64,14 +65,15 @@
 /// written below without a division by s: it is greatest, Mk, at the slip sk, and zero at the
 /// synchronous speed ω.
 ///
-/// The faster the debalance turns, the more the dampers of the shaken platform take. In steady
-/// motion the mean power of the motor is the mean power dissipated. With the debalance's axis at
+/// The faster the debalance turns, the more the dampers of the shaken platform dissipate. In steady
+/// motion the mean power of the motor equals the mean power dissipated. With the debalance's
+/// axis at
 /// the centre of the platform, on springs and dampers that are in total c and b along both axes,
-/// the centre runs round a circle of radius X, and speed and torque are constant:
+/// the centre moves on a circle of radius X, and speed and torque are constant:
 ///
 /// torque = b ψ′ X², X = m0 e ψ′² / √((c − (m + m0) ψ′²)² + (b ψ′)²)
 ///
-/// This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor too weak to run through it hangs
+/// This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor too weak to pass it is caught
 /// there, and shakes the platform harder instead of turning faster: the Sommerfeld effect (here for
 /// Mk below some 165 N·m). With a large Mk the slip vanishes, and the motion is that of
 /// `vibrating_crusher.machine`.
@@ -907,7 +909,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10
     (t5 * t5 + t3 * t3) * p.half_by + (t4 * t4 + t2 * t2) * p.half_bx
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = 2*Mk*sk*der(psi)*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
@@ -919,7 +921,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10])
     t1 / (t0 * (t0 * p.inverse_omega2) + p.sk2)
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2

@@ -922,7 +922,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     t1 * (t1 * p.half_by) + t0 * (t0 * p.half_bx)
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = m0*e*omega*cos(omega*t)*der(der(y)) - m0*e*omega*sin(omega*t)*der(der(x))
@@ -956,7 +956,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     (t2 * t9 + t3 * t8) * p.m0_e_omega2 - t11
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = bx*(der(x) - yb*der(theta))^2 + by*(der(y) + xb*der(theta))^2

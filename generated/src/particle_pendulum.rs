@@ -476,8 +476,9 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
-    /// how independent these are. Only of machines whose constraints are independent.
+    /// Residuals of positions and rates, rows of `G`, the smallest displacements onto the
+    /// constraints, and how independent these are. Only for machines whose constraints
+    /// are independent.
     ///
     /// A pivot that vanishes is an error.
     pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 4], v: &'a [S; 4] })

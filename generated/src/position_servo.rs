@@ -1,8 +1,8 @@
 // @generated from machines/position_servo.machine by `cargo xtask generate`; edits are lost.
 
-//! An arm that a motor holds level against its weight: a controller with an integrator looks at a
-//! filtered angle, and
-//! sets the voltage.
+//! An arm that a motor holds level against its weight: a controller with an integrator measures the
+//! angle through a filter,
+//! and sets the voltage.
 //!
 //! 4 coordinates, 13 parameters, 1 input, 1 output. Arithmetic of one call:
 //!
@@ -35,9 +35,9 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// An arm that a motor holds level against its weight: a controller with an integrator looks at a
-/// filtered angle, and
-/// sets the voltage.
+/// An arm that a motor holds level against its weight: a controller with an integrator measures the
+/// angle through a filter,
+/// and sets the voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PositionServo<S = f64> {
     /// Mass of the arm, and the distance of its mass centre from the axis. Unit: `kg`.
@@ -349,7 +349,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4]
     theta_dot * (theta_dot * p.half_b)
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = kp*i*wanted - (kp - kd/tau)*i*seen + ki*i*error - kd*theta*i/tau
@@ -372,7 +372,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     t0 * i_dot + t3
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = b*der(theta)^2 + R*i^2

@@ -251,9 +251,9 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] 
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// What there is without friction, and what a unit of each friction force adds to it:
-    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
-    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without
+    /// friction, and the change of each by a unit of each friction force; followed by the
+    /// coefficients of friction. A machine with guided contacts has this in place of accelerations
     /// and multipliers.
     ///
     /// A pivot that vanishes is an error.

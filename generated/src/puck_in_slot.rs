@@ -1,13 +1,13 @@
 // @generated from machines/puck_in_slot.machine by `cargo xtask generate`; edits are lost.
 
-//! A puck in a slot between two planes that lie on a slope, which hold it from both sides; thrown
-//! across the slope. Friction is
-//! against its slip, which turns towards the fall line.
+//! A puck in a slot between two planes that lie on a slope and hold it from both sides; it is
+//! thrown across the slope. Friction is
+//! opposite to its slip, which turns towards the fall line.
 //!
-//! With κ = μ/tan α, speed v and angle φ from the fall line, v (cos φ + κ) changes by g sin α (1 −
-//! κ²) a second. So for κ = 1 it
-//! is constant, and a puck that starts along a level line with v goes on down the slope, at last
-//! with v/2.
+//! With κ = μ/tan α, speed v and angle φ from the fall line, v (cos φ + κ) changes at the rate g
+//! sin α (1 − κ²). For κ = 1 it
+//! is constant, and the speed of a puck that starts along a level line with v approaches v/2 down
+//! the slope.
 //!
 //! 2 coordinates, 7 parameters. Arithmetic of one call:
 //!
@@ -34,14 +34,14 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A puck in a slot between two planes that lie on a slope, which hold it from both sides; thrown
-/// across the slope. Friction is
-/// against its slip, which turns towards the fall line.
+/// A puck in a slot between two planes that lie on a slope and hold it from both sides; it is
+/// thrown across the slope. Friction is
+/// opposite to its slip, which turns towards the fall line.
 ///
-/// With κ = μ/tan α, speed v and angle φ from the fall line, v (cos φ + κ) changes by g sin α (1 −
-/// κ²) a second. So for κ = 1 it
-/// is constant, and a puck that starts along a level line with v goes on down the slope, at last
-/// with v/2.
+/// With κ = μ/tan α, speed v and angle φ from the fall line, v (cos φ + κ) changes at the rate g
+/// sin α (1 − κ²). For κ = 1 it
+/// is constant, and the speed of a puck that starts along a level line with v approaches v/2 down
+/// the slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PuckInSlot<S = f64> {
     /// Mass of the puck. Unit: `kg`. Default: 0.16.
@@ -251,9 +251,9 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] 
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// What there is without friction, and what a unit of each friction force adds to it:
-    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
-    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without
+    /// friction, and the change of each by a unit of each friction force; followed by the
+    /// coefficients of friction. A machine with guided contacts has this in place of accelerations
     /// and multipliers.
     ///
     /// A pivot that vanishes is an error.

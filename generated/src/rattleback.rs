@@ -1,8 +1,8 @@
 // @generated from machines/rattleback.machine by `cargo xtask generate`; edits are lost.
 
 //! A rattleback, or Celtic stone: half an ellipsoid that rolls on a table, its axes of
-//! inertia turned
-//! against those of its shape. Spun one way it begins to rattle and turns round.
+//! inertia rotated
+//! relative to those of its shape. Spun in one sense, it begins to rattle and reverses its spin.
 //!
 //! 6 coordinates, 10 parameters. Arithmetic of one call:
 //!
@@ -38,8 +38,8 @@
 #![allow(rustdoc::all)]
 
 /// A rattleback, or Celtic stone: half an ellipsoid that rolls on a table, its axes of
-/// inertia turned
-/// against those of its shape. Spun one way it begins to rattle and turns round.
+/// inertia rotated
+/// relative to those of its shape. Spun in one sense, it begins to rattle and reverses its spin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rattleback<S = f64> {
     /// `m`. Unit: `kg`. Default: 1.

@@ -1,8 +1,8 @@
 // @generated from machines/rolling_coin.machine by `cargo xtask generate`; edits are lost.
 
-//! A coin, or a disc, that rolls on a table: position of the point where it touches, heading,
-//! lean and
-//! roll. What touches stands still: two constraints on rates alone.
+//! A coin, or a disc, that rolls on a table: position of the contact point, heading, lean and
+//! roll. The
+//! material point that touches is at rest: two constraints on rates alone.
 //!
 //! 5 coordinates, 5 parameters. Arithmetic of one call:
 //!
@@ -37,9 +37,9 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A coin, or a disc, that rolls on a table: position of the point where it touches, heading,
-/// lean and
-/// roll. What touches stands still: two constraints on rates alone.
+/// A coin, or a disc, that rolls on a table: position of the contact point, heading, lean and
+/// roll. The
+/// material point that touches is at rest: two constraints on rates alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingCoin<S = f64> {
     /// `m`. Unit: `kg`. Default: 1.
@@ -677,8 +677,9 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
-    /// how independent these are. Only of machines whose constraints are independent.
+    /// Residuals of positions and rates, rows of `G`, the smallest displacements onto the
+    /// constraints, and how independent these are. Only for machines whose constraints
+    /// are independent.
     ///
     /// A pivot that vanishes is an error.
     pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })

@@ -1,8 +1,8 @@
 // @generated from machines/rolling_cylinder.machine by `cargo xtask generate`; edits are lost.
 
-//! A cylinder that rolls inside a fixed one, in polar coordinates about its axis: a pendulum,
-//! as long
-//! as it presses.
+//! A cylinder that rolls inside a fixed one, in polar coordinates about the axis of the latter. It
+//! moves like a
+//! pendulum as long as the contact force presses.
 //!
 //! 3 coordinates, 5 parameters. Arithmetic of one call:
 //!
@@ -37,9 +37,9 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A cylinder that rolls inside a fixed one, in polar coordinates about its axis: a pendulum,
-/// as long
-/// as it presses.
+/// A cylinder that rolls inside a fixed one, in polar coordinates about the axis of the latter. It
+/// moves like a
+/// pendulum as long as the contact force presses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingCylinder<S = f64> {
     /// `m`. Unit: `kg`. Default: 180.

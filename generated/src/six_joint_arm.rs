@@ -1352,7 +1352,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 6]
     (q_6_dot * q_6_dot + q_5_dot * q_5_dot + t1) * p.half_friction
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = der(q[1])*tau[1] + der(q[2])*tau[2] + der(q[3])*tau[3] + der(q[4])*tau[4] + der(q[5])*tau[5]
@@ -1370,7 +1370,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 6], u: &Inputs<S>) ->
     u.tau[5] * q_6_dot + u.tau[4] * q_5_dot + t1
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = friction*der(q[1])^2 + friction*der(q[2])^2 + friction*der(q[3])^2 + friction*der(q[4])^2

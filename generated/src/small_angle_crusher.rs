@@ -2,9 +2,11 @@
 
 //! The crusher with its energies to second order in the platform's angle and angular rate together.
 //!
-//! What is left out of the energies is of third order: half the angle, an eighth of the error.
-//! Unlike the frozen machine it keeps how the turn of the platform displaces the axis of the
-//! debalance, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and with it the product of angle and rate.
+//! The terms of the energies that are left out are of third order: with half the angle, the error
+//! is an eighth. Unlike the frozen machine it includes the displacement of the axis of the
+//! debalance by
+//! the rotation of the platform, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and thus products of angle
+//! and rate.
 //!
 //! 9 coordinates, 18 parameters. Arithmetic of one call:
 //!
@@ -39,9 +41,11 @@
 
 /// The crusher with its energies to second order in the platform's angle and angular rate together.
 ///
-/// What is left out of the energies is of third order: half the angle, an eighth of the error.
-/// Unlike the frozen machine it keeps how the turn of the platform displaces the axis of the
-/// debalance, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and with it the product of angle and rate.
+/// The terms of the energies that are left out are of third order: with half the angle, the error
+/// is an eighth. Unlike the frozen machine it includes the displacement of the axis of the
+/// debalance by
+/// the rotation of the platform, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and thus products of angle
+/// and rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmallAngleCrusher<S = f64> {
     /// Mass of the platform. Unit: `kg`. Default: 600.
@@ -936,7 +940,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     theta_dot * (theta_dot * p.bx_yc2_plus_by_xc2) + t0
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = …
@@ -982,7 +986,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     (t3 * t12 + t4 * t11) * p.m0_e_omega2 - t19 - t21 - t22
 }
 
-/// Power `R` that dampers take out, in W.
+/// Power `R` dissipated by dampers, in W.
 ///
 /// ```text
 /// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2

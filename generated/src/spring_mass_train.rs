@@ -365,7 +365,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     (t6 * t6 + (t5 * t5 + t2 * t2) + t7) * p.half_k
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = der(u[8])*pull

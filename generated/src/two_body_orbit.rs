@@ -3,14 +3,14 @@
 //! Two bodies that attract each other as Newton says, seen from their common mass centre: r and
 //! phi are the distance and the direction of the second from the first.
 //!
-//! Nothing here says "reduced mass"; it is what the derivation finds, for both bodies move with
-//! the one line between them: mu = m1 m2/(m1 + m2). Each body runs in a conic with a focus in
+//! The spec does not mention the reduced mass mu = m1 m2/(m1 + m2): it results from the derivation,
+//! since both bodies move with the line between them. Each body moves on a conic with a focus in
 //! the mass centre. Conserved: energy E, angular momentum mu r^2 der(phi), and the eccentricity
 //! vector (P. S. Laplace, C. Runge, W. Lenz), which points from the focus to the pericentre and
-//! is as long as the eccentricity e is great. Where E < 0, with the semi-major axis
+//! whose length is the eccentricity e. If E < 0, with the semi-major axis
 //! a = G m1 m2/(-2 E), the period is 2 pi sqrt(a^3/(G (m1 + m2))), and Kepler's equation
-//! u - e sin(u) = n t gives the place, r = a (1 - e cos(u)). A circle of radius r is run
-//! through at der(phi)^2 = G (m1 + m2)/r^3. From rest the bodies would fall together.
+//! u - e sin(u) = n t gives the distance, r = a (1 - e cos(u)). On a circle of radius r,
+//! der(phi)^2 = G (m1 + m2)/r^3. From rest the bodies would fall into each other.
 //!
 //! 2 coordinates, 3 parameters, 3 outputs. Arithmetic of one call:
 //!
@@ -46,14 +46,14 @@
 /// Two bodies that attract each other as Newton says, seen from their common mass centre: r and
 /// phi are the distance and the direction of the second from the first.
 ///
-/// Nothing here says "reduced mass"; it is what the derivation finds, for both bodies move with
-/// the one line between them: mu = m1 m2/(m1 + m2). Each body runs in a conic with a focus in
+/// The spec does not mention the reduced mass mu = m1 m2/(m1 + m2): it results from the derivation,
+/// since both bodies move with the line between them. Each body moves on a conic with a focus in
 /// the mass centre. Conserved: energy E, angular momentum mu r^2 der(phi), and the eccentricity
 /// vector (P. S. Laplace, C. Runge, W. Lenz), which points from the focus to the pericentre and
-/// is as long as the eccentricity e is great. Where E < 0, with the semi-major axis
+/// whose length is the eccentricity e. If E < 0, with the semi-major axis
 /// a = G m1 m2/(-2 E), the period is 2 pi sqrt(a^3/(G (m1 + m2))), and Kepler's equation
-/// u - e sin(u) = n t gives the place, r = a (1 - e cos(u)). A circle of radius r is run
-/// through at der(phi)^2 = G (m1 + m2)/r^3. From rest the bodies would fall together.
+/// u - e sin(u) = n t gives the distance, r = a (1 - e cos(u)). On a circle of radius r,
+/// der(phi)^2 = G (m1 + m2)/r^3. From rest the bodies would fall into each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoBodyOrbit<S = f64> {
     /// Mass of the first body, and of the second. Unit: `kg`. Default: 3.

@@ -377,7 +377,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     p.m2_g * (sin_t0 * p.c2 + sin_q1 * p.l1) + sin_q1 * p.c1_m1_g
 }
 
-/// Power `P` that drives, forces and inputs put in, in W.
+/// Power `P` supplied by drives, forces and inputs, in W.
 ///
 /// ```text
 /// P = der(q1)*tau1 + der(q2)*tau2

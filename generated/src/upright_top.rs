@@ -1,16 +1,16 @@
 // @generated from machines/upright_top.machine by `cargo xtask generate`; edits are lost.
 
-//! A symmetrical top on a fixed point that stands upright, is pushed, and falls, for it spins too
+//! A symmetrical top on a fixed point that stands upright, is pushed, and falls, since it spins too
 //! slowly to sleep; it rises again,
-//! and every time it passes through the upright. It is turned by a quaternion, four numbers of
-//! which only the ratios mean anything:
-//! any three angles fail somewhere, and the usual ones of a top just there.
+//! and each time passes through the upright position. It is turned by a quaternion, since any three
+//! angles are singular at some
+//! orientation, and the usual ones of a top at just this one.
 //!
 //! Conserved: energy, and angular momentum about the vertical and about the top's axis, which are
-//! the same here. Of these follows
-//! how far it leans at most (F. Klein, A. Sommerfeld, Über die Theorie des Kreisels, 1897, chapter
-//! IV). It would sleep beyond
-//! a spin of sqrt(4 (A + m l²) m g l)/C, 79.9 rad/s.
+//! the same here. The greatest
+//! lean follows from these (F. Klein, A. Sommerfeld, Über die Theorie des Kreisels, 1897, chapter
+//! IV). The top would sleep, that is,
+//! stay upright, with a spin above sqrt(4 (A + m l²) m g l)/C, 79.9 rad/s.
 //!
 //! 4 coordinates, 7 parameters, 3 outputs. Arithmetic of one call:
 //!
@@ -44,17 +44,17 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A symmetrical top on a fixed point that stands upright, is pushed, and falls, for it spins too
+/// A symmetrical top on a fixed point that stands upright, is pushed, and falls, since it spins too
 /// slowly to sleep; it rises again,
-/// and every time it passes through the upright. It is turned by a quaternion, four numbers of
-/// which only the ratios mean anything:
-/// any three angles fail somewhere, and the usual ones of a top just there.
+/// and each time passes through the upright position. It is turned by a quaternion, since any three
+/// angles are singular at some
+/// orientation, and the usual ones of a top at just this one.
 ///
 /// Conserved: energy, and angular momentum about the vertical and about the top's axis, which are
-/// the same here. Of these follows
-/// how far it leans at most (F. Klein, A. Sommerfeld, Über die Theorie des Kreisels, 1897, chapter
-/// IV). It would sleep beyond
-/// a spin of sqrt(4 (A + m l²) m g l)/C, 79.9 rad/s.
+/// the same here. The greatest
+/// lean follows from these (F. Klein, A. Sommerfeld, Über die Theorie des Kreisels, 1897, chapter
+/// IV). The top would sleep, that is,
+/// stay upright, with a spin above sqrt(4 (A + m l²) m g l)/C, 79.9 rad/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UprightTop<S = f64> {
     /// `m`. Unit: `kg`. Default: 0.2.

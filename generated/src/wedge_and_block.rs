@@ -1,7 +1,7 @@
 // @generated from machines/wedge_and_block.machine by `cargo xtask generate`; edits are lost.
 
-//! A block slides down a wedge that slides on a table: what presses on either depends on how both
-//! accelerate.
+//! A block slides down a wedge that slides on a table: the normal forces of both depend on both
+//! accelerations.
 //!
 //! 2 coordinates, 6 parameters. Arithmetic of one call:
 //!
@@ -26,8 +26,8 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A block slides down a wedge that slides on a table: what presses on either depends on how both
-/// accelerate.
+/// A block slides down a wedge that slides on a table: the normal forces of both depend on both
+/// accelerations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WedgeAndBlock<S = f64> {
     /// Mass of the wedge. Unit: `kg`. Default: 3.
@@ -230,9 +230,9 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>() -> [S; 4] {
 }
 
 ::lagrangian::emitted::fast_function! {
-    /// What there is without friction, and what a unit of each friction force adds to it:
-    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
-    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without
+    /// friction, and the change of each by a unit of each friction force; followed by the
+    /// coefficients of friction. A machine with guided contacts has this in place of accelerations
     /// and multipliers.
     ///
     /// A pivot that vanishes is an error.

@@ -143,6 +143,46 @@ enum Goal {
     Argument(Base, u32),
 }
 
+/// The positions at which each value is used: those of value i are `uses[first_use[i]..first_use[i + 1]]` of the results.
+fn uses_of(lowered: &Lowered) -> (Vec<u32>, Vec<u32>) {
+    let count = lowered.nodes.len();
+    let order = || lowered.phases.iter().flat_map(|phase| &phase.order);
+    let mut first_use = vec![0u32; count + 1];
+    for id in order() {
+        for operand in lowered.nodes[*id as usize].operands() {
+            first_use[operand as usize + 1] += 1;
+        }
+    }
+    for index in 0..count {
+        first_use[index + 1] += first_use[index];
+    }
+    let mut next: Vec<u32> = first_use[..count].to_vec();
+    let mut uses = vec![0; first_use[count] as usize];
+    for (position, id) in order().enumerate() {
+        for operand in lowered.nodes[*id as usize].operands() {
+            let next = &mut next[operand as usize];
+            uses[*next as usize] = position as u32;
+            *next += 1;
+        }
+    }
+    (first_use, uses)
+}
+
+/// Where each value is stored, sorted.
+fn goals(lowered: &Lowered) -> Vec<(Id, Goal)> {
+    let mut wanted: Vec<(Id, Goal)> = Vec::new();
+    for call in lowered.phases.iter().flat_map(|phase| &phase.calls) {
+        for (index, id) in call.arguments.iter().enumerate() {
+            wanted.push((*id, Goal::Workspace(call.from + index as u32)));
+        }
+    }
+    for (id, base, index) in &lowered.results {
+        wanted.push((*id, Goal::Argument(*base, *index)));
+    }
+    wanted.sort_unstable();
+    wanted
+}
+
 impl<'a> Emitter<'a> {
     fn new(lowered: &'a Lowered, arithmetic: Arithmetic, layout: Layout) -> Emitter<'a> {
         let count = lowered.nodes.len();
@@ -160,36 +200,7 @@ impl<'a> Emitter<'a> {
         }
         let start = pool.len().next_multiple_of(LINE);
 
-        let order = || lowered.phases.iter().flat_map(|phase| &phase.order);
-        let mut first_use = vec![0u32; count + 1];
-        for id in order() {
-            for operand in lowered.nodes[*id as usize].operands() {
-                first_use[operand as usize + 1] += 1;
-            }
-        }
-        for index in 0..count {
-            first_use[index + 1] += first_use[index];
-        }
-        let mut next: Vec<u32> = first_use[..count].to_vec();
-        let mut uses = vec![0; first_use[count] as usize];
-        for (position, id) in order().enumerate() {
-            for operand in lowered.nodes[*id as usize].operands() {
-                let next = &mut next[operand as usize];
-                uses[*next as usize] = position as u32;
-                *next += 1;
-            }
-        }
-
-        let mut wanted: Vec<(Id, Goal)> = Vec::new();
-        for call in lowered.phases.iter().flat_map(|phase| &phase.calls) {
-            for (index, id) in call.arguments.iter().enumerate() {
-                wanted.push((*id, Goal::Workspace(call.from + index as u32)));
-            }
-        }
-        for (id, base, index) in &lowered.results {
-            wanted.push((*id, Goal::Argument(*base, *index)));
-        }
-        wanted.sort_unstable();
+        let (first_use, uses) = uses_of(lowered);
         let home = lowered.nodes.iter().map(|node| match node {
             Node::Leaf(place) => Some(*place),
             _ => None,
@@ -220,7 +231,7 @@ impl<'a> Emitter<'a> {
             is_borrowed: vec![false; count],
             free_slots: Vec::new(),
             slots: lowered.workspace,
-            wanted,
+            wanted: goals(lowered),
             is_loaded,
             are_saved: false,
             work: Work::default(),

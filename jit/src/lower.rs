@@ -472,49 +472,142 @@ impl Lowered {
     }
 }
 
-impl Builder {
-    /// Assigns phases to all values that these results need.
-    pub fn in_phases(mut self, results: Vec<(Id, Base, u32)>) -> Lowered {
-        let count = self.nodes.len();
-        // The phase in which a value becomes known, and the phase after which a call is made.
-        let mut known = vec![0u32; count];
-        let mut stands = vec![0u32; self.wanted.len()];
+/// When values become known, relative to the calls of functions.
+struct Known {
+    /// For each value, the phase in which it becomes known.
+    values: Vec<u32>,
+    /// For each call, the phase after which it is made.
+    calls: Vec<u32>,
+    /// The last phase.
+    last: u32,
+}
+
+impl Known {
+    fn of(builder: &Builder) -> Known {
+        let count = builder.nodes.len();
+        let mut values = vec![0u32; count];
+        let mut calls = vec![0u32; builder.wanted.len()];
         for id in 0..count {
-            known[id] = match self.nodes[id] {
-                Node::Leaf(_) => match self.call_of.get(&(id as Id)) {
+            values[id] = match builder.nodes[id] {
+                Node::Leaf(_) => match builder.call_of.get(&(id as Id)) {
                     Some(call) => {
                         // Arguments have smaller ids than results.
-                        let arguments = self.wanted[*call].arguments.iter();
-                        let behind = arguments.map(|id| known[*id as usize]).max();
-                        stands[*call] = behind.unwrap_or(0);
-                        stands[*call] + 1
+                        let arguments = builder.wanted[*call].arguments.iter();
+                        let behind = arguments.map(|id| values[*id as usize]).max();
+                        calls[*call] = behind.unwrap_or(0);
+                        calls[*call] + 1
                     }
                     None => 0,
                 },
                 node => {
                     let operands = node.operands();
-                    operands.map(|id| known[id as usize]).max().unwrap_or(0)
+                    operands.map(|id| values[id as usize]).max().unwrap_or(0)
                 }
             };
         }
-        let last = stands.iter().map(|phase| phase + 1).max().unwrap_or(0);
-        // The last phase in which a value is early enough, and whether it is needed.
-        let mut phase = vec![u32::MAX; count];
-        for (id, ..) in &results {
-            phase[*id as usize] = last;
+        let last = calls.iter().map(|phase| phase + 1).max().unwrap_or(0);
+        Known {
+            values,
+            calls,
+            last,
         }
-        for (call, stands) in self.wanted.iter().zip(&stands) {
+    }
+}
+
+/// The memory between phases: arguments and results of calls.
+#[derive(Default)]
+struct Workspace {
+    length: u32,
+}
+
+impl Workspace {
+    /// A call of a function for all that want it, with the places of its arguments and results; the nodes of the results read these.
+    fn place(&mut self, nodes: &mut [Node], calls: &[&Wanted], kind: CallKind) -> Call {
+        let arguments: Vec<Id> = calls
+            .iter()
+            .flat_map(|call| call.arguments.iter().copied())
+            .collect();
+        let from = self.length;
+        let to = from + arguments.len() as u32;
+        self.length = to;
+        // All first results, then all second ones.
+        let most = calls.iter().map(|call| call.results.len()).max();
+        for index in 0..most.unwrap_or(0) {
+            for id in calls.iter().filter_map(|call| call.results.get(index)) {
+                nodes[*id as usize] = Node::Leaf(Location::Workspace(self.length));
+                self.length += 1;
+            }
+        }
+        if let CallKind::Matrix(_) = kind {
+            // The last register of results may be partly unused.
+            self.length += 8;
+        }
+        Call {
+            kind,
+            arguments,
+            from,
+            to,
+        }
+    }
+}
+
+impl Builder {
+    /// Assigns phases to all values that these results need.
+    pub fn in_phases(mut self, results: Vec<(Id, Base, u32)>) -> Lowered {
+        let known = Known::of(&self);
+        let (phase, is_guarded) = self.latest_phases(&known, &results);
+        let mut phases: Vec<Phase> = (0..=known.last).map(|_| Phase::default()).collect();
+        for id in &self.order {
+            if let Some(phase) = phases.get_mut(phase[*id as usize] as usize) {
+                phase.order.push(*id);
+            }
+        }
+        let mut workspace = Workspace::default();
+        for (number, phase) in phases.iter_mut().enumerate() {
+            let here = self.wanted.iter().zip(&known.calls);
+            let here = here.filter(|(_, stands)| **stands as usize == number);
+            let (circular, others): (Vec<&Wanted>, Vec<&Wanted>) = here
+                .map(|(call, _)| call)
+                .partition(|call| call.kind == CallKind::Circular);
+            if !circular.is_empty() {
+                let call = workspace.place(&mut self.nodes, &circular, CallKind::Circular);
+                phase.calls.push(call);
+            }
+            for call in others {
+                let call = workspace.place(&mut self.nodes, &[call], call.kind);
+                phase.calls.push(call);
+            }
+        }
+        let reads = self.reads(&results);
+        Lowered {
+            nodes: self.nodes,
+            phases,
+            results,
+            constants: self.constants,
+            workspace: workspace.length,
+            reads,
+            is_guarded,
+        }
+    }
+
+    /// The last phase in which each value is early enough, above all of them if it is not needed; and whether there are guards.
+    fn latest_phases(&self, known: &Known, results: &[(Id, Base, u32)]) -> (Vec<u32>, bool) {
+        let mut phase = vec![u32::MAX; known.values.len()];
+        for (id, ..) in results {
+            phase[*id as usize] = known.last;
+        }
+        for (call, stands) in self.wanted.iter().zip(&known.calls) {
             for id in &call.arguments {
                 let phase = &mut phase[*id as usize];
                 *phase = (*phase).min(*stands);
             }
         }
         let mut is_guarded = false;
-        for id in (0..count).rev() {
+        for id in (0..phase.len()).rev() {
             let node = self.nodes[id];
             if matches!(node, Node::Guard(..)) {
                 // All guards are in one phase, so that no call separates them.
-                phase[id] = last;
+                phase[id] = known.last;
                 is_guarded = true;
             }
             let own = phase[id];
@@ -523,76 +616,25 @@ impl Builder {
                 *phase = (*phase).min(own);
             }
         }
+        (phase, is_guarded)
+    }
 
-        let mut phases: Vec<Phase> = (0..=last).map(|_| Phase::default()).collect();
-        for id in &self.order {
-            if let Some(phase) = phases.get_mut(phase[*id as usize] as usize) {
-                phase.order.push(*id);
-            }
-        }
-        let mut workspace = 0;
-        let mut place = |nodes: &mut [Node], calls: &[&Wanted], kind| {
-            let arguments: Vec<Id> = calls
-                .iter()
-                .flat_map(|call| call.arguments.iter().copied())
-                .collect();
-            let from = workspace;
-            let to = from + arguments.len() as u32;
-            workspace = to;
-            // All first results, then all second ones.
-            let most = calls.iter().map(|call| call.results.len()).max();
-            for index in 0..most.unwrap_or(0) {
-                for id in calls.iter().filter_map(|call| call.results.get(index)) {
-                    nodes[*id as usize] = Node::Leaf(Location::Workspace(workspace));
-                    workspace += 1;
-                }
-            }
-            if let CallKind::Matrix(_) = kind {
-                // The last register of results may be partly unused.
-                workspace += 8;
-            }
-            Call {
-                kind,
-                arguments,
-                from,
-                to,
-            }
-        };
-        for (number, phase) in phases.iter_mut().enumerate() {
-            let here = self.wanted.iter().zip(&stands);
-            let here = here.filter(|(_, stands)| **stands as usize == number);
-            let (circular, others): (Vec<&Wanted>, Vec<&Wanted>) = here
-                .map(|(call, _)| call)
-                .partition(|call| call.kind == CallKind::Circular);
-            if !circular.is_empty() {
-                let call = place(&mut self.nodes, &circular, CallKind::Circular);
-                phase.calls.push(call);
-            }
-            for call in others {
-                phase.calls.push(place(&mut self.nodes, &[call], call.kind));
-            }
-        }
-
+    /// How many numbers are read or written behind each pointer.
+    fn reads(&self, results: &[(Id, Base, u32)]) -> [u32; Base::COUNT] {
         let mut reads = [0; Base::COUNT];
+        let mut reach = |base: Base, index: u32| {
+            let reads = &mut reads[base as usize];
+            *reads = (*reads).max(index + 1);
+        };
         for node in &self.nodes {
-            if let Node::Leaf(Location::Argument(base, index)) = node {
-                let reads = &mut reads[*base as usize];
-                *reads = (*reads).max(index + 1);
+            if let Node::Leaf(Location::Argument(base, index)) = *node {
+                reach(base, index);
             }
         }
-        for (_, base, index) in &results {
-            let stores = &mut reads[*base as usize];
-            *stores = (*stores).max(index + 1);
+        for (_, base, index) in results {
+            reach(*base, *index);
         }
-        Lowered {
-            nodes: self.nodes,
-            phases,
-            results,
-            constants: self.constants,
-            workspace,
-            reads,
-            is_guarded,
-        }
+        reads
     }
 }
 

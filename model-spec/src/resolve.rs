@@ -74,8 +74,13 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Code, Diagnostic, Report, most_similar};
 use crate::model::bounds::Bound;
+use crate::model::charts::Charts;
 use crate::model::charts::in_cartesian;
-use crate::model::{Assumption, Body, Model, Pose, PoseId, Space, Variable, quaternion, stage};
+use crate::model::element::Element;
+use crate::model::{
+    Approximation, Assumption, Body, Circle, Contact, Frame, Model, Output, Pose, PoseId, Space,
+    Variable, quaternion, stage,
+};
 use crate::source::{Files, Sources, Span};
 use crate::syntax::{self, Item, Quantity, SectionKind, Spec};
 
@@ -219,6 +224,35 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     exhausted: bool,
 }
 
+/// What has mass and what acts on it, and the facts that are assumed.
+struct Parts<'d> {
+    frames: Vec<Frame>,
+    bodies: Vec<Body<'d>>,
+    elements: Vec<Element<'d>>,
+    circles: Vec<Circle<'d>>,
+    contacts: Vec<Contact<'d>>,
+    assumptions: Vec<Assumption<'d>>,
+}
+
+/// What is asked of the machine.
+struct Requests<'d> {
+    approximations: Vec<Approximation>,
+    outputs: Vec<Output<'d>>,
+    derivatives: Vec<Variable>,
+    stages: crate::model::Stages,
+    taylor: Option<Span>,
+    charts: Vec<Charts>,
+    kept: Vec<Variable>,
+}
+
+/// Sets the inertia of the lengths of quaternions, which follows from the rest of the model.
+fn give_inertia_to_quaternions(model: &mut Model<'_>) {
+    for k in 0..model.quaternions.len() {
+        let e = model.quaternions[k].e;
+        model.quaternions[k].inertia = quaternion::inertia(model, &e);
+    }
+}
+
 impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
     fn new(
         layers: &Layers,
@@ -277,11 +311,9 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         self.find_derived();
         self.check_overrides(machine);
         self.expand_all();
-
+        // Members are resolved in this order, in which their errors are reported.
         let parameters = self.resolve_each(Parameters, |resolver, member| {
-            resolver
-                .parameter(member)
-                .map(|parameter| (member, parameter))
+            Some((member, resolver.parameter(member)?))
         });
         let derived_parameters = self.resolve_each(Parameters, Self::derived_parameter);
         let constants = self.resolve_each(Constants, Self::constant);
@@ -293,36 +325,16 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             resolver.definition(member);
             None::<()>
         });
-        let frames = self.resolve_each(Frames, Self::named_frame);
-        let mut bodies = self.resolve_each(Bodies, Self::body);
-        self.outlines = bodies.iter().enumerate().filter_map(Outline::of).collect();
-        let mut assumptions = self.assumptions(layers);
-        let facts = assumptions.iter().map(|fact| fact.excess);
-        self.facts = facts.map(|fact| (fact, fact.symbols())).collect();
-        let elements = self.elements(layers);
-        bodies.append(&mut self.rotors);
-        let mut circles = self.resolve_each(Circles, Self::circle);
-        circles.extend(self.resolve_each(Spheres, Self::sphere));
-        let contacts = self.resolve_each(Contacts, Self::contacts);
-        let contacts = contacts.into_iter().flatten().collect();
-        let approximations = self.resolve_each(Approximations, |resolver, member| {
-            Some(resolver.approximation(member))
-        });
-        let outputs = self.resolve_each(Outputs, Self::output);
-        let derivatives = self.variables(Derivatives, Self::differentiated_by);
-        let methods = self.resolve_each(Methods, Self::method);
-        let stages = self.resolve_each(Stages, |resolver, member| Some(resolver.stage(member)));
-        let charts = self.resolve_each(SectionKind::Charts, Self::charts);
-        self.check_charts(&charts);
-        let kept = self.variables(Keep, Self::kept);
+        let mut parts = self.parts(layers);
+        let requests = self.requests();
         let destination = self.destination(layers, &coordinates);
         let published = self.published(layers);
 
         coordinates.extend(states);
         coordinates.extend(self.relaxed_coordinates());
-        assumptions.append(&mut self.further_facts);
+        parts.assumptions.append(&mut self.further_facts);
 
-        let bounds = self.check_bounds(&assumptions, &parameters);
+        let bounds = self.check_bounds(&parts.assumptions, &parameters);
         let quaternions = self.all_quaternions(&coordinates);
         self.check_not_empty(machine);
         if self.report.has_errors() {
@@ -336,23 +348,79 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             space: self.space,
             span: machine.name.span,
             time: self.time,
-            parameters: parameters
-                .into_iter()
-                .map(|(_, parameter)| parameter)
-                .collect(),
+            parameters: parameters.into_iter().map(|(_, of)| of).collect(),
             derived_parameters,
             constants,
             coordinates,
             inputs,
-            assumptions,
+            assumptions: parts.assumptions,
             poses: std::mem::take(&mut self.poses),
             quaternions,
+            frames: parts.frames,
+            bodies: parts.bodies,
+            elements: parts.elements,
+            relaxed: None,
+            circles: parts.circles,
+            contacts: parts.contacts,
+            approximations: requests.approximations,
+            outputs: requests.outputs,
+            derivatives: requests.derivatives,
+            stages: requests.stages,
+            taylor: requests.taylor,
+            projects: false,
+            charts: requests.charts,
+            cartesian: None,
+            uncharted: Vec::new(),
+            kept: requests.kept,
+            destination,
+            published,
+            bounds,
+            sections: self.sections_of(layers),
+        };
+        give_inertia_to_quaternions(&mut model);
+        self.warn_about_missing_gravity(&model, layers);
+        Some(model)
+    }
+
+    /// What has mass and what acts on it, and the facts that are assumed.
+    fn parts(&mut self, layers: &'a [Spec]) -> Parts<'d> {
+        use SectionKind::*;
+        let frames = self.resolve_each(Frames, Self::named_frame);
+        let mut bodies = self.resolve_each(Bodies, Self::body);
+        self.outlines = bodies.iter().enumerate().filter_map(Outline::of).collect();
+        let assumptions = self.assumptions(layers);
+        let facts = assumptions.iter().map(|fact| fact.excess);
+        self.facts = facts.map(|fact| (fact, fact.symbols())).collect();
+        let elements = self.elements(layers);
+        bodies.append(&mut self.rotors);
+        let mut circles = self.resolve_each(Circles, Self::circle);
+        circles.extend(self.resolve_each(Spheres, Self::sphere));
+        let contacts = self.resolve_each(Contacts, Self::contacts);
+        let contacts = contacts.into_iter().flatten().collect();
+        Parts {
             frames,
             bodies,
             elements,
-            relaxed: None,
             circles,
             contacts,
+            assumptions,
+        }
+    }
+
+    /// What is asked of the machine.
+    fn requests(&mut self) -> Requests<'d> {
+        use SectionKind::*;
+        let approximations = self.resolve_each(Approximations, |resolver, member| {
+            Some(resolver.approximation(member))
+        });
+        let outputs = self.resolve_each(Outputs, Self::output);
+        let derivatives = self.variables(Derivatives, Self::differentiated_by);
+        let methods = self.resolve_each(Methods, Self::method);
+        let stages = self.resolve_each(Stages, |resolver, member| Some(resolver.stage(member)));
+        let charts = self.resolve_each(SectionKind::Charts, Self::charts);
+        self.check_charts(&charts);
+        let kept = self.variables(Keep, Self::kept);
+        Requests {
             approximations: approximations.into_iter().flatten().collect(),
             outputs,
             derivatives,
@@ -361,22 +429,9 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 coordinates: stages.iter().any(|stages| stages.coordinates),
             },
             taylor: methods.into_iter().next(),
-            projects: false,
             charts,
-            cartesian: None,
-            uncharted: Vec::new(),
             kept,
-            destination,
-            published,
-            bounds,
-            sections: self.sections_of(layers),
-        };
-        for k in 0..model.quaternions.len() {
-            let e = model.quaternions[k].e;
-            model.quaternions[k].inertia = quaternion::inertia(&model, &e);
         }
-        self.warn_about_missing_gravity(&model, layers);
-        Some(model)
     }
 
     /// Resolves each member of a section, in order.

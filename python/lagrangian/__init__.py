@@ -1,4 +1,4 @@
-"""Machines written down as specs, their equations derived symbolically, and run.
+"""Derives the equations of motion of machines from their specs, symbolically, and integrates them.
 
 >>> import lagrangian as lg
 >>> m = lg.load("machines/double_pendulum.machine", l2=0.5)

@@ -20,7 +20,7 @@ def number_array(given: Any, what: str) -> np.ndarray:
 
 
 def vectors(given: Any, names: Tuple[str, ...], default: Any, what: str, kind: str) -> np.ndarray:
-    """(*S, n) of an array, or of a mapping from names to numbers or arrays; what it leaves out is the default."""
+    """An array (*S, n) from an array, or from a mapping of names to numbers or arrays; omitted names have their defaults."""
     n = len(names)
     usual: np.ndarray = np.asarray(default, dtype=np.float64)
     if given is None:
@@ -47,7 +47,7 @@ def vectors(given: Any, names: Tuple[str, ...], default: Any, what: str, kind: s
 
 
 def of_name(name: str, names: Tuple[str, ...]) -> List[int]:
-    """The places that a name means: its own, or those of the members of a family."""
+    """The indices to which a name refers: its own, or those of the members of a family."""
     found = [i for i, known in enumerate(names) if known == name or known.split("[")[0] == name]
     state = None if found else state_of(name)
     return found if state is None else of_name(state, names)
@@ -74,12 +74,12 @@ def start_of(machine: Any, start: Any, rate: Any) -> Tuple[np.ndarray, np.ndarra
 
 
 def for_command(machine: Any, name: str) -> str:
-    """What the command calls a rate that Python calls so: that of the integral of a state."""
+    """The name in the command of a rate with this name in Python; they differ for the integral of a state."""
     return integral_of(name) if of_name(name, machine.states) and not of_name(name, machine.coordinates) else name
 
 
 class Arguments:
-    """States of a batch: a row each."""
+    """The states of a batch, one in each row."""
 
     def __init__(
         self, machine: Any, q: Any, v: Any, t: Any, u: Any, parameters: Optional[Mapping[str, Any]]

@@ -76,7 +76,7 @@ class Published(NamedTuple):
 
 
 class Accuracy(NamedTuple):
-    """How accurate the program of a machine is in one quantity, compared with numbers of 30 digits at many states."""
+    """The accuracy of one quantity of a machine's program, by comparison with 30 digits at many states."""
 
     quantity: str
     states: int
@@ -275,7 +275,7 @@ class Brachistochrone:
 
     @property
     def end(self) -> State:
-        """Where it arrives, and how fast."""
+        """The state at the end of the motion."""
         return State(float(self.t[-1]), self.q[-1], self.v[-1])
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:

@@ -27,7 +27,7 @@ class Combination(NamedTuple):
 
 
 class Fit:
-    """What was fitted, p numbers, to m measurements."""
+    """The result of a fit of p numbers to m measurements."""
 
     names: Tuple[str, ...]
     """Parameters, ``start(x)`` and ``rate(x)``; of several experiments ``start(x) in 2``."""

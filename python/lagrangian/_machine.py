@@ -21,7 +21,7 @@ _T = TypeVar("_T")
 
 
 def load(path: Union[str, "os.PathLike[str]"], *, constants: Optional[Mapping[str, Any]] = None, **parameters: Number) -> "Machine":
-    """The machine of a spec in a file; specs that it extends are read from the same folder.
+    """Reads a machine from a spec file; specs that it extends are found relative to its folder.
 
     >>> m = load("machines/double_pendulum.machine", l2=0.5)
     >>> m.parameters["l2"]
@@ -40,7 +40,7 @@ def loads(
     constants: Optional[Mapping[str, Any]] = None,
     **parameters: Number,
 ) -> "Machine":
-    """The machine of a spec in a string.
+    """Reads a machine from a spec in a string.
 
     ``name`` is its name in messages. Specs that it extends are looked up in ``files``, or read from ``folder``.
     """

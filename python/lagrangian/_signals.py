@@ -45,7 +45,7 @@ class Sampled:
     seconds later and holds until it is set again.
 
     ``what`` is a formula of the spec's language or a function ``f(t, q, v)``, which is called once for each sample, in the order of
-    time, and so may keep a memory.
+    time, and may therefore have a state of its own.
     """
 
     def __init__(self, what: Union[str, Callable[..., float]], every: float, delay: float = 0.0) -> None:

@@ -194,7 +194,7 @@ class Run:
 
     @property
     def start(self) -> State:
-        """The start; on the constraints."""
+        """The state at the start, projected onto the constraints."""
         return self._state(self._native.start, ())
 
     @property
@@ -424,7 +424,7 @@ class Report:
 
     @property
     def html(self) -> str:
-        """Its text."""
+        """The HTML text of the page."""
         if self._made is None:
             self._made = self._run._page()
         return self._made
@@ -531,6 +531,7 @@ def simulate(
     relative: Optional[float] = None,
     absolute: Union[None, float, Mapping[str, float]] = None,
     method: str = "dop853",
+    one_of: int = 1,
     every: Optional[float] = None,
     at: Optional[Sequence[float]] = None,
     dense: bool = True,
@@ -557,9 +558,11 @@ def simulate(
     * What is kept: instants ``every`` so many seconds, or the instants ``at``; by default 1000 intervals. ``dense=False`` forgets
       the steps, which ``run.at`` needs.
     * ``tolerance`` is ``relative`` and ``absolute`` at once; ``absolute`` may be a mapping from names to numbers.
-    * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5``, ``radau9`` and ``radau13`` for stiff machines, ``taylor``; ``auto``
-      continues with ``radau`` where the machine is stiff and with time stepping where contacts accumulate, see ``run.choices``;
-      with steps of ``longest_step`` ``rk4``, ``semi-implicit-euler``, ``gauss4``, ``gauss6``, ``gauss8``, ``rattle``, ``generalized-alpha``, ``moreau``.
+    * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5``, ``radau9`` and ``radau13`` for stiff machines, ``taylor``; ``auto``,
+      which continues with ``taylor`` in long runs where this costs less, with a Radau method where the machine is stiff, and with
+      time stepping where contacts accumulate, see ``run.choices``; ``one_of`` counts the runs that share the derivation of a
+      series, as the rows of a sweep do; with steps of ``longest_step`` ``rk4``,
+      ``semi-implicit-euler``, ``gauss4``, ``gauss6``, ``gauss8``, ``rattle``, ``generalized-alpha``, ``moreau``.
     * ``keep``: numbers of the start that constraints do not move, ``"theta"`` or ``"der(theta)"``.
     * ``progress``: ``"auto"`` (a line on a terminal after 2 s), False, or ``f(fraction, t, steps)``.
 
@@ -567,6 +570,8 @@ def simulate(
     """
     given = dict(locals())
     del given["machine"], given["until"]
+    if int(one_of) < 1 or (one_of != 1 and method != "auto"):
+        raise ValueError(f"one_of={one_of!r}: a number of runs, of which method='auto' shares the derivation of a series")
     if on_error not in ("raise", "return"):
         raise ValueError(f"on_error={on_error!r}: must be 'raise' or 'return'")
     if parameters:
@@ -677,6 +682,7 @@ def simulate(
         "absolute": float(absolute),
         "absolute_of": list(absolute_of.items()),
         "method": method,
+        "one_of": int(one_of),
         "every": every,
         "at": None if instants is None else instants.tolist(),
         "dense": bool(dense),

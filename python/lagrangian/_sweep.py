@@ -1,4 +1,4 @@
-"""One machine, many runs."""
+"""Sweeps: many runs of one machine."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class _Distribution:
 
 
 class Uniform(_Distribution):
-    """Uniformly between a and b."""
+    """A uniform distribution between a and b."""
 
     _kind = "uniform"
 
@@ -46,7 +46,7 @@ class Uniform(_Distribution):
 
 
 class LogUniform(_Distribution):
-    """With a uniformly distributed logarithm, between a and b of the same sign."""
+    """A distribution whose logarithm is uniform, between a and b of the same sign."""
 
     _kind = "log_uniform"
 
@@ -57,7 +57,7 @@ class LogUniform(_Distribution):
 
 
 class Normal(_Distribution):
-    """Normally."""
+    """A normal distribution with this mean and standard deviation."""
 
     _kind = "normal"
 
@@ -68,7 +68,7 @@ class Normal(_Distribution):
 
 
 class Triangular(_Distribution):
-    """Between a and b, with a density that rises to the peak and falls from there."""
+    """A triangular distribution between a and b: its density rises linearly to the peak and falls linearly from there."""
 
     _kind = "triangular"
 
@@ -137,6 +137,8 @@ class Sweep:
             {"start": start, "rate": rate, "set": given}[kind][inner] = value
         machine = self.machine.with_parameters(given)
         plain = {"start": start, "rate": rate, **self._keywords["run"], **settings}
+        if plain["method"] != "auto":
+            plain.pop("one_of", None)
         return machine.simulate(self._keywords["until"], **plain)
 
     def to_pandas(self) -> Any:
@@ -474,6 +476,7 @@ def sweep(
             "events": events or (),
             "tolerance": tolerance,
             "method": method,
+            **({"one_of": runs} if method == "auto" else {}),
             "max_steps": max_steps,
         },
     }

@@ -323,45 +323,18 @@ pub fn evaluate<'py>(
     let mut is_valid = Vec::with_capacity(results.len());
     for (place, result) in results.into_iter().enumerate() {
         is_valid.push(result.is_ok());
-        let evaluation = match result {
-            Ok(evaluation) => evaluation,
+        match result {
+            Ok(evaluation) => {
+                for (column, values) in columns.iter_mut().zip(flat(evaluation, outputs)) {
+                    column.extend(values);
+                }
+            }
             Err(error) if raises => return Err(machine.raised(py, error, place)),
             Err(_) => {
                 for (column, (_, width)) in columns.iter_mut().zip(widths) {
                     column.resize(column.len() + width, f64::NAN);
                 }
-                continue;
             }
-        };
-        let flag = |is: bool| f64::from(u8::from(is));
-        let contacts = evaluation.contacts.iter();
-        let contacts = contacts.flat_map(|c| [c.normal, c.friction, c.slip, flag(c.sticks)]);
-        let unilateral = evaluation.unilateral.iter().flat_map(|c| {
-            let [closed, sticks] = [c.closed, c.sticks].map(flag);
-            [c.gap, c.normal, c.friction, c.slip, closed, sticks]
-        });
-        let reactions = if evaluation.reactions.is_empty() {
-            vec![0.0; n]
-        } else {
-            evaluation.reactions
-        };
-        let all = [
-            evaluation.mass_matrix,
-            evaluation.bias,
-            evaluation.applied,
-            evaluation.forces,
-            evaluation.accelerations,
-            reactions,
-            evaluation.multipliers,
-            evaluation.outputs.values[..outputs].to_vec(),
-            contacts.collect(),
-            unilateral.collect(),
-            vec![evaluation.kinetic_energy],
-            vec![evaluation.potential_energy],
-            vec![evaluation.dissipation],
-        ];
-        for (column, values) in columns.iter_mut().zip(all) {
-            column.extend(values);
         }
     }
     let by_name = PyDict::new(py);
@@ -369,6 +342,37 @@ pub fn evaluate<'py>(
         by_name.set_item(name, PyArray1::from_vec(py, column))?;
     }
     Ok((by_name, is_valid))
+}
+
+/// The quantities at one state, flat, with the first `outputs` outputs.
+fn flat(evaluation: Evaluation<Named>, outputs: usize) -> [Vec<f64>; 13] {
+    let flag = |is: bool| f64::from(u8::from(is));
+    let contacts = evaluation.contacts.iter();
+    let contacts = contacts.flat_map(|c| [c.normal, c.friction, c.slip, flag(c.sticks)]);
+    let unilateral = evaluation.unilateral.iter().flat_map(|c| {
+        let [closed, sticks] = [c.closed, c.sticks].map(flag);
+        [c.gap, c.normal, c.friction, c.slip, closed, sticks]
+    });
+    let reactions = if evaluation.reactions.is_empty() {
+        vec![0.0; evaluation.bias.len()]
+    } else {
+        evaluation.reactions
+    };
+    [
+        evaluation.mass_matrix,
+        evaluation.bias,
+        evaluation.applied,
+        evaluation.forces,
+        evaluation.accelerations,
+        reactions,
+        evaluation.multipliers,
+        evaluation.outputs.values[..outputs].to_vec(),
+        contacts.collect(),
+        unilateral.collect(),
+        vec![evaluation.kinetic_energy],
+        vec![evaluation.potential_energy],
+        vec![evaluation.dissipation],
+    ]
 }
 
 /// Derivatives by coordinates, and by rates.

@@ -38,7 +38,7 @@ impl Machine {
     fn linear(&self, py: Python<'_>, inputs: &[f64]) -> PyResult<InterpretedMachine> {
         self.check_parameters(py)?;
         let system = self.system();
-        if system.contacts().len() > 0 {
+        if system.contacts().len() + system.guides() > 0 {
             return Err(PyValueError::new_err(
                 "sticking friction cannot be linearized: a machine with `sliding` has no modes and no linear model",
             ));
@@ -206,14 +206,7 @@ pub fn linear_model<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let of = machine;
     let machine = of.linear(py, &inputs)?;
-    let outputs = wanted.1.iter().map(|(kind, k)| match kind.as_str() {
-        "coordinate" => Ok(Observed::Coordinate(*k)),
-        "rate" => Ok(Observed::Rate(*k)),
-        "acceleration" => Ok(Observed::Acceleration(*k)),
-        "multiplier" => Ok(Observed::Multiplier(*k)),
-        "output" => Ok(Observed::Output(*k)),
-        kind => Err(PyValueError::new_err(format!("no kind of output {kind:?}"))),
-    });
+    let outputs = wanted.1.iter().map(observed);
     let request = Request {
         outputs: outputs.collect::<PyResult<_>>()?,
         inputs: wanted.0,
@@ -255,6 +248,30 @@ pub fn linear_model<'py>(
     });
     let (model, poles, zeros, names) = made.map_err(PyValueError::new_err)?;
     let poles: Vec<Complex<f64>> = poles.iter().map(|pole| pole.lambda).collect();
+    let all = dictionary(py, &model)?;
+    all.set_item("coordinates", names)?;
+    for (name, values) in [("poles", &poles), ("zeros", &zeros)] {
+        let [re, im] = parts(values);
+        all.set_item(format!("{name}_re"), array(py, &re))?;
+        all.set_item(format!("{name}_im"), array(py, &im))?;
+    }
+    Ok(all)
+}
+
+/// An output of a linear model, by kind and index.
+fn observed((kind, k): &(String, usize)) -> PyResult<Observed> {
+    match kind.as_str() {
+        "coordinate" => Ok(Observed::Coordinate(*k)),
+        "rate" => Ok(Observed::Rate(*k)),
+        "acceleration" => Ok(Observed::Acceleration(*k)),
+        "multiplier" => Ok(Observed::Multiplier(*k)),
+        "output" => Ok(Observed::Output(*k)),
+        kind => Err(PyValueError::new_err(format!("no kind of output {kind:?}"))),
+    }
+}
+
+/// A linear model as a dictionary.
+fn dictionary<'py>(py: Python<'py>, model: &Model) -> PyResult<Bound<'py, PyDict>> {
     let Model {
         a,
         b,
@@ -271,19 +288,13 @@ pub fn linear_model<'py>(
         outputs,
         records,
         ..
-    } = &model;
+    } = model;
     let all = PyDict::new(py);
-    all.set_item("coordinates", names)?;
     for (name, matrix) in [("A", a), ("B", b), ("C", c), ("D", d), ("basis", basis)] {
         all.set_item(name, array(py, &flat(matrix)))?;
     }
     for (name, values) in [("drift", drift), ("q", q), ("v", v), ("u", u), ("y", y)] {
         all.set_item(name, array(py, values))?;
-    }
-    for (name, values) in [("poles", &poles), ("zeros", &zeros)] {
-        let [re, im] = parts(values);
-        all.set_item(format!("{name}_re"), array(py, &re))?;
-        all.set_item(format!("{name}_im"), array(py, &im))?;
     }
     let labels = |labels: &[Label]| -> Labels {
         let labels = labels.iter().cloned();

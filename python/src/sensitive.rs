@@ -1,5 +1,7 @@
 //! Motions together with their derivatives.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::methods::Method;
 use lagrangian::{Error, Sensitive, Simulation, State, Varied};
@@ -11,6 +13,7 @@ use pyo3::prelude::*;
 
 use crate::errors;
 use crate::machine::Machine;
+use crate::simulate;
 
 /// How often a run checks for interruption.
 const BETWEEN: std::time::Duration = std::time::Duration::from_millis(50);
@@ -51,43 +54,14 @@ pub fn sensitivities<'py>(
     machine.check_parameters(py)?;
     let method = Method::named(method)
         .ok_or_else(|| PyValueError::new_err(format!("no method named {method:?}")))?;
-    let stop = std::sync::atomic::AtomicBool::new(false);
-    let mut raised = None;
+    let interrupt = Interrupt::default();
     let made = py.detach(|| -> Result<_, Lost> {
         let own = &machine.machine;
-        let is_held = own.prepare().constraints().len() > 0;
-        let mut sensitive = Sensitive::new(own);
-        if is_held {
-            sensitive = sensitive.with_start_on_constraints();
-        }
-        for (kind, name) in &by {
-            sensitive = match kind.as_str() {
-                "start" => sensitive.by_start(name)?,
-                "rate" => sensitive.by_start_rate(name)?,
-                _ => sensitive.by(name)?,
-            };
-        }
+        let sensitive = sensitive(own, &by)?;
         let mut from = own.start();
         (from.t, from.q.values, from.v.values) = start;
         let causes: Vec<Cause> = by.iter().map(|of| cause(machine, of)).collect();
-        let given = from.clone();
-        if is_held {
-            from = project_start(own, from, keep.as_deref()).map_err(Lost::Held)?;
-            if let Some(constraint) = starts::dependent_constraint(own, &from) {
-                return Err(Lost::Held(format!(
-                    "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
-                )));
-            }
-        }
-        let mut from = sensitive.start_from(from);
-        if is_held {
-            for (k, cause) in causes.iter().enumerate() {
-                let bring = |machine: &InterpretedMachine, from| project_start(machine, from, keep.as_deref());
-                let change = starts::change(own, *cause, |_| given.clone(), bring);
-                let violated = |why| Lost::Held(format!("{}({}): {why}", by[k].0, by[k].1));
-                [from.q.by[k].values, from.v.by[k].values] = change.map_err(violated)?;
-            }
-        }
+        let from = begin(own, &sensitive, from, (&by, &causes), keep.as_deref())?;
         let mut last = std::time::Instant::now();
         let run = Simulation::new(&sensitive)
             .until(until)
@@ -97,24 +71,20 @@ pub fn sensitivities<'py>(
             .progress(|_| {
                 if last.elapsed() >= BETWEEN {
                     last = std::time::Instant::now();
-                    if let Err(error) = Python::attach(|py| py.check_signals()) {
-                        raised.get_or_insert(error);
-                        stop.store(true, std::sync::atomic::Ordering::Relaxed);
-                    }
+                    interrupt.look();
                 }
             })
-            .stop_if(|_| stop.load(std::sync::atomic::Ordering::Relaxed))
+            .stop_if(|_| interrupt.has_come())
             .run_interpreted(from)?;
-        if stop.load(std::sync::atomic::Ordering::Relaxed) {
-Ok(Vec::new())
-} else {
-                if is_held {
-                    check_drift(own, run.end(), &causes, &by)?;
-                }
-                Ok(run.at_each(instants)?)
-            }
+        if interrupt.has_come() {
+            return Ok(Vec::new());
+        }
+        if own.prepare().constraints().len() > 0 {
+            check_drift(own, run.end(), &causes, &by)?;
+        }
+        Ok(run.at_each(instants)?)
     });
-    if let Some(error) = raised {
+    if let Some(error) = interrupt.raised() {
         return Err(error);
     }
     let states = made.map_err(|error| match error {
@@ -149,6 +119,77 @@ Ok(Vec::new())
     ])
 }
 
+/// An exception that Python raises while a run is made, as by Ctrl-C.
+#[derive(Default)]
+struct Interrupt(Mutex<Option<PyErr>>);
+
+impl Interrupt {
+    /// Lets Python handle signals.
+    fn look(&self) {
+        if let Err(error) = Python::attach(|py| py.check_signals()) {
+            self.lock().get_or_insert(error);
+        }
+    }
+
+    fn has_come(&self) -> bool {
+        self.lock().is_some()
+    }
+
+    fn raised(&self) -> Option<PyErr> {
+        self.lock().take()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<PyErr>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A machine with the derivatives by these variables.
+fn sensitive<'m>(
+    machine: &'m InterpretedMachine,
+    by: &[(String, String)],
+) -> Result<Sensitive<'m, InterpretedMachine>, Lost> {
+    let mut sensitive = Sensitive::new(machine);
+    if machine.prepare().constraints().len() > 0 {
+        sensitive = sensitive.with_start_on_constraints();
+    }
+    for (kind, name) in by {
+        sensitive = match kind.as_str() {
+            "start" => sensitive.by_start(name)?,
+            "rate" => sensitive.by_start_rate(name)?,
+            _ => sensitive.by(name)?,
+        };
+    }
+    Ok(sensitive)
+}
+
+/// The start with its derivatives. On constraints it is projected onto them, and changes with the variables as the projected start does.
+fn begin(
+    machine: &InterpretedMachine,
+    sensitive: &Sensitive<'_, InterpretedMachine>,
+    given: State<Named>,
+    (by, causes): (&[(String, String)], &[Cause]),
+    keep: Option<&[String]>,
+) -> Result<State<Varied<Named>>, Lost> {
+    if machine.prepare().constraints().len() == 0 {
+        return Ok(sensitive.start_from(given));
+    }
+    let start = project_start(machine, given.clone(), keep).map_err(Lost::Held)?;
+    if let Some(constraint) = starts::dependent_constraint(machine, &start) {
+        return Err(Lost::Held(format!(
+            "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
+        )));
+    }
+    let mut from = sensitive.start_from(start);
+    for (k, cause) in causes.iter().enumerate() {
+        let bring = |machine: &InterpretedMachine, from| project_start(machine, from, keep);
+        let change = starts::change(machine, *cause, |_| given.clone(), bring);
+        let violated = |why| Lost::Held(format!("{}({}): {why}", by[k].0, by[k].1));
+        [from.q.by[k].values, from.v.by[k].values] = change.map_err(violated)?;
+    }
+    Ok(from)
+}
+
 /// The cause for a kind and a name.
 fn cause(machine: &Machine, (kind, name): &(String, String)) -> Cause {
     let coordinates = &machine.derived.coordinates;
@@ -170,14 +211,7 @@ fn project_start(
     start: State<Named>,
     keep: Option<&[String]>,
 ) -> Result<State<Named>, String> {
-    let mut simulation = Simulation::new(machine).until(start.t);
-    if let Some(keep) = keep {
-        simulation = simulation.keep_none();
-        for name in keep {
-            simulation = simulation.keep(name);
-        }
-    }
-    let run = simulation
+    let run = simulate::keep(Simulation::new(machine).until(start.t), keep)
         .run_interpreted(start)
         .map_err(|error| error.to_string())?;
     Ok(run.start().clone())

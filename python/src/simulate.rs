@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signals};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{
     Crossing, Error, InputLaw, Machine as _, Observation, Progress, Simulation, Solution, State,
@@ -56,6 +56,8 @@ pub struct Settings {
     absolute: f64,
     absolute_of: Vec<(String, f64)>,
     method: String,
+    /// The number of runs that share the derivation of a series.
+    one_of: u64,
     every: Option<f64>,
     at: Option<Vec<f64>>,
     dense: bool,
@@ -85,6 +87,18 @@ struct Samples {
 }
 
 impl Samples {
+    /// At the given instants, or at equal intervals.
+    fn new(at: Option<Vec<f64>>, every: f64, [t0, until]: [f64; 2]) -> Samples {
+        Samples {
+            at,
+            every,
+            t0,
+            until,
+            passed: 0,
+            states: Vec::new(),
+        }
+    }
+
     fn next(&self) -> Option<f64> {
         match &self.at {
             Some(times) => times.get(self.passed).copied(),
@@ -138,6 +152,82 @@ impl Watched {
     }
 }
 
+impl Settings {
+    /// The method with which the run begins.
+    fn method(&self) -> PyResult<&'static Method> {
+        if self.method == AUTO {
+            return Ok(<&Method>::default());
+        }
+        Method::named(&self.method).ok_or_else(|| {
+            let known = methods().join(", ");
+            PyValueError::new_err(format!(
+                "no method named {:?}; there are: {AUTO}, {known}",
+                self.method
+            ))
+        })
+    }
+
+    /// The interval at which states are recorded, in s.
+    fn interval(&self) -> PyResult<f64> {
+        if let Some(every) = self.every
+            && !(every > 0.0 && every.is_finite())
+        {
+            return Err(PyValueError::new_err(format!(
+                "every={every} must be greater than 0"
+            )));
+        }
+        let duration = (self.until - self.t0).abs();
+        let every = self.every.unwrap_or(duration / 1000.0);
+        if self.at.is_none() && duration / every > MOST_SAMPLES {
+            return Err(PyValueError::new_err(format!(
+                "every={every:e} would keep more than {MOST_SAMPLES:e} instants"
+            )));
+        }
+        Ok(every)
+    }
+
+    /// The start of the run, in the coordinates of the spec.
+    fn start(&self, of: &Machine) -> State<Named> {
+        let mut start = of.machine.start();
+        start.t = self.t0;
+        start.q.values.clone_from(&self.q);
+        start.v.values.clone_from(&self.v);
+        start
+    }
+
+    /// Whether the run calls Python functions of the state.
+    fn has_functions(&self) -> bool {
+        self.all_inputs.is_some()
+            || self.rules.iter().any(|rule| rule.3.is_some())
+            || self.events.iter().any(|event| event.2.is_some())
+            || (self.stop.as_ref()).is_some_and(|(_, function)| function.is_some())
+    }
+}
+
+/// A function of the state that is watched for changes of its sign.
+struct Event {
+    name: String,
+    watched: Watched,
+    crossing: Crossing,
+    /// The occurrence that ends the run.
+    ends: Option<usize>,
+}
+
+impl Event {
+    fn of((name, output, function, direction, ends): Watch) -> PyResult<Event> {
+        Ok(Event {
+            name,
+            watched: Watched::of(output, function)?,
+            crossing: match direction {
+                1 => Crossing::Rising,
+                -1 => Crossing::Falling,
+                _ => Crossing::Any,
+            },
+            ends,
+        })
+    }
+}
+
 /// Makes a run; returns it with the error that ended it early, if any.
 #[pyfunction]
 pub fn simulate(
@@ -146,41 +236,10 @@ pub fn simulate(
     settings: Settings,
 ) -> PyResult<(Run, Option<String>)> {
     of.check_parameters(py)?;
-    let is_automatic = settings.method == AUTO;
-    let method = if is_automatic {
-        Some(<&Method>::default())
-    } else {
-        Method::named(&settings.method)
-    };
-    let Some(method) = method else {
-        let known = methods().join(", ");
-        return Err(PyValueError::new_err(format!(
-            "no method named {:?}; there are: {AUTO}, {known}",
-            settings.method
-        )));
-    };
-    if let Some(every) = settings.every
-        && !(every > 0.0 && every.is_finite())
-    {
-        return Err(PyValueError::new_err(format!(
-            "every={every} must be greater than 0"
-        )));
-    }
-    let duration = settings.until - settings.t0;
-    let every = settings.every.unwrap_or(duration.abs() / 1000.0);
-    if settings.at.is_none() && duration.abs() / every > MOST_SAMPLES {
-        return Err(PyValueError::new_err(format!(
-            "every={every:e} would keep more than {MOST_SAMPLES:e} instants"
-        )));
-    }
-    let has_functions = settings.all_inputs.is_some()
-        || settings.rules.iter().any(|rule| rule.3.is_some())
-        || settings.events.iter().any(|event| event.2.is_some())
-        || (settings.stop.as_ref()).is_some_and(|(_, function)| function.is_some());
-    let mut start = of.machine.start();
-    start.t = settings.t0;
-    start.q.values.clone_from(&settings.q);
-    start.v.values.clone_from(&settings.v);
+    let method = settings.method()?;
+    let every = settings.interval()?;
+    let has_functions = settings.has_functions();
+    let start = settings.start(of);
     // A Python function has the coordinates of the spec as its arguments, and may use the number of turns of an angle.
     let in_cartesian = if has_functions {
         None
@@ -195,35 +254,17 @@ pub fn simulate(
         Some((machine, start, charts)) => (machine, start, Some(charts)),
         None => (of.machine.clone(), start, None),
     };
-    if std::ptr::eq(method, &TAYLOR) {
-        let checked = py.detach(|| machine.prepare().check_series().map_err(str::to_owned));
-        checked.map_err(|reason| {
-            PyValueError::new_err(format!("method taylor: no series: {reason}"))
-        })?;
-    }
     let raised = Raised::default();
     let signals = inputs::driven(&machine, settings.rules, &raised)?;
-    if std::ptr::eq(method, &TAYLOR)
-        && let Some(reason) = without_series(&signals, &machine)
-    {
-        return Err(PyValueError::new_err(format!(
-            "method taylor: no series: {reason}"
-        )));
+    if std::ptr::eq(method, &TAYLOR) {
+        check_series(py, &machine, &signals)?;
     }
     let law = Law {
         signals,
         all: settings.all_inputs,
         raised: raised.clone(),
     };
-    let mut watches = Vec::new();
-    for (name, output, function, direction, ends) in settings.events {
-        let crossing = match direction {
-            1 => Crossing::Rising,
-            -1 => Crossing::Falling,
-            _ => Crossing::Any,
-        };
-        watches.push((name, Watched::of(output, function)?, crossing, ends));
-    }
+    let events = settings.events.into_iter().map(Event::of);
     let stop = settings.stop;
     let stop = stop
         .map(|(output, function)| Watched::of(output, function))
@@ -237,19 +278,13 @@ pub fn simulate(
         charts: charts.as_ref().map(|charts| (charts, marked_every)),
         law: SharedLaw(Arc::new(law)),
         raised: raised.clone(),
-        watches,
+        events: events.collect::<PyResult<_>>()?,
         stop,
         progress: settings.progress,
-        samples: Samples {
-            at: settings.at,
-            every,
-            t0: settings.t0,
-            until: settings.until,
-            passed: 0,
-            states: Vec::new(),
-        },
+        samples: Samples::new(settings.at, every, [settings.t0, settings.until]),
         method,
-        is_automatic,
+        is_automatic: settings.method == AUTO,
+        one_of: settings.one_of,
         start,
         until: settings.until,
         tolerance: [settings.relative, settings.absolute],
@@ -271,6 +306,18 @@ pub fn simulate(
             Ok((Run::new(solution, states, charts), error))
         }
         Err(error) => Err(of_error(py, &of.derived, &error)),
+    }
+}
+
+/// Checks that the motion has a Taylor series.
+fn check_series(py: Python<'_>, machine: &InterpretedMachine, signals: &Signals) -> PyResult<()> {
+    let series = py.detach(|| machine.prepare().check_series().map_err(str::to_owned));
+    let reason = series.err().or_else(|| without_series(signals, machine));
+    match reason {
+        None => Ok(()),
+        Some(reason) => Err(PyValueError::new_err(format!(
+            "method taylor: no series: {reason}"
+        ))),
     }
 }
 
@@ -307,13 +354,15 @@ struct Task<'a> {
     charts: Option<(&'a Charts, f64)>,
     law: SharedLaw,
     raised: Raised,
-    watches: Vec<(String, Watched, Crossing, Option<usize>)>,
+    events: Vec<Event>,
     stop: Option<Watched>,
     progress: Option<Py<PyAny>>,
     samples: Samples,
     method: &'static Method,
     /// Whether the run chooses its methods.
     is_automatic: bool,
+    /// Of how many runs it is one, if it does.
+    one_of: u64,
     start: State<Named>,
     until: f64,
     /// Relative and absolute tolerance.
@@ -327,6 +376,28 @@ struct Task<'a> {
     keep: Option<Vec<String>>,
 }
 
+/// A run before it begins.
+type Prepared<'s> = Simulation<'s, InterpretedMachine, SharedLaw>;
+
+/// An output of the spec, or a formula, at a state.
+fn output_at(system: &InterpretedSystem, output: usize, at: &State<Named>, u: &Named) -> f64 {
+    system.output(output, at.t, &at.q.values, &at.v.values, &[], &u.values)
+}
+
+/// The simulation that keeps only these numbers of its start, if any are named.
+pub fn keep<'s, L: InputLaw<InterpretedSystem>>(
+    mut simulation: Simulation<'s, InterpretedMachine, L>,
+    names: Option<&[String]>,
+) -> Simulation<'s, InterpretedMachine, L> {
+    if let Some(names) = names {
+        simulation = simulation.keep_none();
+        for name in names {
+            simulation = simulation.keep(name);
+        }
+    }
+    simulation
+}
+
 /// A run, the requested states, and the error that ended it early, if any.
 type Made = (
     Solution<InterpretedMachine, SharedLaw>,
@@ -338,33 +409,13 @@ impl Task<'_> {
     fn run(&self, machine: &InterpretedMachine) -> Result<Made, Error> {
         // Formulas are evaluated while the run uses its own system.
         let system = machine.prepare();
-        let value = |watched: &Watched, name: &str, state: &State<Named>| -> f64 {
-            let State { t, q, v } = state;
-            let (t, q, v) = (*t, &q.values, &v.values);
-            match watched {
-                Watched::Output(output) => {
-                    let mut u = system.default_inputs();
-                    self.law.set(&system, t, q, v, &mut u);
-                    system.output(*output, t, q, v, &[], &u.values)
-                }
-                Watched::Function(function) => Python::attach(|py| {
-                    let value = inputs::number(py, function, name, (t, q, v));
-                    value.unwrap_or_else(|error| {
-                        self.raised.keep(py, error, t);
-                        f64::NAN
-                    })
-                }),
-            }
-        };
-        let value = &value;
         // The run knows the values that a controller holds at the end of its last step.
         let is_sampled = self.law.0.signals.is_sampled();
         let held: Mutex<Option<Named>> = Mutex::new(None);
-        let held = &held;
+        let held = || held.lock().unwrap_or_else(PoisonError::into_inner);
         let mut samples = self.samples.clone();
         samples.begin(&self.start);
         let mut last = Instant::now();
-        let [relative, absolute] = self.tolerance;
         let mut simulation = Simulation::new(machine)
             .until(self.until)
             .max_steps(self.max_steps)
@@ -375,8 +426,7 @@ impl Task<'_> {
                 if is_sampled {
                     let [_, to] = step.span();
                     let State { q, v, .. } = step.state(to)?;
-                    let inputs = step.inputs(to, &q.values, &v.values);
-                    *held.lock().unwrap_or_else(PoisonError::into_inner) = Some(inputs);
+                    *held() = Some(step.inputs(to, &q.values, &v.values));
                 }
                 if let Some((charts, every)) = self.charts {
                     charts.follow(step, every)?;
@@ -390,17 +440,55 @@ impl Task<'_> {
                 }
             })
             .stop_if(|state| {
-                let held = held.lock().unwrap_or_else(PoisonError::into_inner);
                 let stops = self.stop.as_ref();
-                let stops = stops.is_some_and(|watched| match (watched, &*held) {
+                let stops = stops.is_some_and(|watched| match (watched, &*held()) {
                     (Watched::Output(output), Some(u)) => {
-                        let (q, v) = (&state.q.values, &state.v.values);
-                        system.output(*output, state.t, q, v, &[], &u.values) > 0.0
+                        output_at(&system, *output, state, u) > 0.0
                     }
-                    _ => value(watched, "stop", state) > 0.0,
+                    _ => self.value(&system, watched, "stop", state) > 0.0,
                 });
                 self.raised.is_kept() || stops
             });
+        simulation = self.with_settings(simulation);
+        simulation = self.law.0.signals.sample(simulation, machine);
+        for event in &self.events {
+            simulation = self.with_event(simulation, event, &system);
+        }
+        let (solution, error) =
+            simulation.run_interpreted_as_far_as_possible(self.start.clone())?;
+        samples.end(solution.start(), solution.end());
+        Ok((solution, samples.states, error))
+    }
+
+    /// The value of what is watched, under this name in messages; NaN where a Python function raises an exception.
+    fn value(
+        &self,
+        system: &InterpretedSystem,
+        watched: &Watched,
+        name: &str,
+        state: &State<Named>,
+    ) -> f64 {
+        let State { t, q, v } = state;
+        let (t, q, v) = (*t, &q.values, &v.values);
+        match watched {
+            Watched::Output(output) => {
+                let mut u = system.default_inputs();
+                self.law.set(system, t, q, v, &mut u);
+                output_at(system, *output, state, &u)
+            }
+            Watched::Function(function) => Python::attach(|py| {
+                let value = inputs::number(py, function, name, (t, q, v));
+                value.unwrap_or_else(|error| {
+                    self.raised.keep(py, error, t);
+                    f64::NAN
+                })
+            }),
+        }
+    }
+
+    /// The simulation with tolerances, lengths of steps, and what is kept.
+    fn with_settings<'s>(&self, mut simulation: Prepared<'s>) -> Prepared<'s> {
+        let [relative, absolute] = self.tolerance;
         simulation = if relative == absolute {
             simulation.tolerance(relative)
         } else {
@@ -416,42 +504,43 @@ impl Task<'_> {
             simulation = simulation.forget_steps();
         }
         if self.is_automatic {
-            simulation = simulation.automatic();
+            simulation = simulation.automatic().one_of(self.one_of);
         }
         for (name, of) in &self.absolute_of {
             simulation = simulation.absolute_of(name, *of);
         }
-        if let Some(keep) = &self.keep {
-            simulation = simulation.keep_none();
-            for name in keep {
-                simulation = simulation.keep(name);
-            }
-        }
-        simulation = self.law.0.signals.sample(simulation, machine);
-        for (name, watched, crossing, ends) in &self.watches {
-            if let (true, Watched::Output(output)) = (is_sampled, watched) {
-                let (output, system) = (*output, system.clone());
-                let function = move |seen: &Observation<InterpretedMachine>| {
-                    let (q, v, u) = (&seen.q.values, &seen.v.values, &seen.inputs.values);
-                    system.output(output, seen.t, q, v, &[], u)
-                };
-                simulation = match ends {
-                    None => simulation.event_on(name, *crossing, function),
-                    Some(n) => simulation.until_nth_event_on(*n, name, *crossing, function),
-                };
-                continue;
-            }
-            let label = format!("event {name}");
-            let function = move |state: &State<Named>| value(watched, &label, state);
-            simulation = match ends {
-                None => simulation.event(name, *crossing, function),
-                Some(n) => simulation.until_nth_event(*n, name, *crossing, function),
+        keep(simulation, self.keep.as_deref())
+    }
+
+    /// The simulation with an event. If a controller sets the inputs, a formula has those that the run knows.
+    fn with_event<'s>(
+        &'s self,
+        simulation: Prepared<'s>,
+        event: &'s Event,
+        system: &'s InterpretedSystem,
+    ) -> Prepared<'s> {
+        let Event {
+            name,
+            watched,
+            crossing,
+            ends,
+        } = event;
+        if let (true, Watched::Output(output)) = (self.law.0.signals.is_sampled(), watched) {
+            let function = move |seen: &Observation<InterpretedMachine>| {
+                let (q, v, u) = (&seen.q.values, &seen.v.values, &seen.inputs.values);
+                system.output(*output, seen.t, q, v, &[], u)
+            };
+            return match ends {
+                None => simulation.event_on(name, *crossing, function),
+                Some(n) => simulation.until_nth_event_on(*n, name, *crossing, function),
             };
         }
-        let (solution, error) =
-            simulation.run_interpreted_as_far_as_possible(self.start.clone())?;
-        samples.end(solution.start(), solution.end());
-        Ok((solution, samples.states, error))
+        let label = format!("event {name}");
+        let function = move |state: &State<Named>| self.value(system, watched, &label, state);
+        match ends {
+            None => simulation.event(name, *crossing, function),
+            Some(n) => simulation.until_nth_event(*n, name, *crossing, function),
+        }
     }
 
     /// Lets Python handle Ctrl-C, and reports progress.

@@ -240,6 +240,17 @@ def test_a_long_run_goes_on_by_series():
     again = oscillator.simulate(1885, method="auto", tolerance=1e-12)
     assert again.choices == run.choices and again.end.q["x"] == run.end.q["x"]
     assert [of[1] for of in oscillator.simulate(1, method="auto").choices] == ["dop853"]
+    # One of a million that share the derivation goes by it from the start, as a row of a sweep of so many.
+    shared = oscillator.simulate(1, method="auto", one_of=1_000_000)
+    assert [of[1] for of in shared.choices] == ["taylor"]
+    with pytest.raises(ValueError, match="one_of"):
+        oscillator.simulate(1, one_of=2)
+    with pytest.raises(ValueError, match="one_of"):
+        oscillator.simulate(1, method="auto", one_of=0)
+    sweep = oscillator.sweep({"start(x)": (0.5, 1.0, 40)}, until=40, tolerance=1e-12, method="auto")
+    again = sweep.run(17)
+    assert sweep["methods"][17].startswith("dop853, taylor from")
+    assert again.end.q["x"] == sweep["x"][17] and sweep.run(17, method="dop853").choices == []
     taylor = oscillator.simulate(1885, method="taylor", tolerance=1e-12)
     assert abs(taylor.end.q["x"] - math.cos(1885)) < 2e3 * 1e-12
 

@@ -1,4 +1,4 @@
-//! Projects states that are nearly on the constraints, as the ends of steps are, by the function that a machine has for it.
+//! Projects states that are nearly on the constraints, such as the ends of steps, by a function of the machine's program.
 //!
 //! Each call gives the residuals, the rows and the corrections of both levels at a state, so a correction of the coordinates and the evaluation of
 //! the residual after it are one call. The corrections are those of Newton's method with the matrices of each iteration. The rates are corrected last, with

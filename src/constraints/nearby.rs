@@ -1,4 +1,4 @@
-//! Projects states that are nearly on the constraints, as the ends of steps are: with few evaluations, by the metric of one pose.
+//! Projects states that are nearly on the constraints, such as the ends of steps, with few evaluations, by the metric of one pose.
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
     reason = "what is not a number passes no test here"

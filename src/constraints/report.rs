@@ -18,6 +18,9 @@ impl<V: Vector> Constraints<V> {
 
         // Coefficients below this are round-off of 0, relative to 1.
         const NOTHING: f64 = 1e-6;
+        if self.choice.rank == system.constraints().len() {
+            return Ok(Vec::new());
+        }
         in_workspace(system, t, q.as_slice().len(), |workspace| {
             self.prepare(system, workspace, (t, q), Level::Rates)?;
             workspace.combine(|j| self.choice.row(j), self.choice.rank);

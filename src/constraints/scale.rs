@@ -61,6 +61,21 @@ impl<V: Vector> OfRows<V> {
         0.0
     }
 
+    /// Replaces the number of a row that is remembered.
+    fn set(&mut self, k: usize, to: f64) {
+        let n = self.coordinates();
+        let known = match self.first.get_mut(k / n) {
+            Some(column) => column.as_mut_slice().get_mut(k % n),
+            #[cfg(feature = "std")]
+            None => self.beyond.get_mut(k - REMEMBERED * n),
+            #[cfg(not(feature = "std"))]
+            None => None,
+        };
+        if let Some(known) = known {
+            *known = to;
+        }
+    }
+
     /// Makes the number of a row at least as great as this, if that is finite and the row is remembered.
     #[inline(always)]
     fn raise(&mut self, k: usize, to: f64) {
@@ -182,6 +197,13 @@ impl<V: Vector> Scales<V> {
     /// Records how the terms of a row bend.
     pub fn record_curvature(&mut self, k: usize, curvature: f64) {
         self.curvatures.raise(k, curvature);
+    }
+
+    /// Replaces how the terms of a row bend by what they become where it has bent, `there`, if that is less than this share of it.
+    pub fn limit_curvature(&mut self, k: usize, there: f64, share: f64) {
+        if there < share * self.curvatures.get(k) {
+            self.curvatures.set(k, there);
+        }
     }
 
     /// The displacement with index `part`, of the size of the coordinates (1 rad for angles), in a direction

@@ -1,6 +1,7 @@
 //! Projects the start of a run onto the constraints.
 
 use super::choice::{Choice, Rank};
+use super::fork::TIGHT;
 use super::workspace::{Workspace, in_workspace};
 use super::{Changed, Constraints, INDEPENDENT, Level, Unprojected};
 use crate::{Singular, StepError, System, Vector};
@@ -38,6 +39,10 @@ impl<V: Vector> Constraints<V> {
         // How many passes in succession have chosen all rows and moved nothing.
         let mut at_rest = 0;
         for independent in PASSES {
+            if at_rest == 1 && self.reorders_all_rows(system, (place.t, place.q[0]), independent) {
+                at_rest = 2;
+                break;
+            }
             tried = self.pass(system, place, Rank::Revealed(independent), at_rest > 0);
             if tried == Ok(false) && independent == INDEPENDENT {
                 break;
@@ -48,11 +53,6 @@ impl<V: Vector> Constraints<V> {
             } else {
                 0
             };
-            // The next one would choose the same rows: a lower bound admits no further ones, and of rows that were all chosen before, none
-            // is preferred.
-            if at_rest == 2 {
-                break;
-            }
         }
         tried?;
         // The passes together may have moved farther than a single move with the rows that they found.
@@ -78,6 +78,28 @@ impl<V: Vector> Constraints<V> {
         }
         self.accept(place.q[0], place.v[0]);
         self.find_branch(system, (place.t, place.q[0], place.v[0]))
+    }
+
+    /// Chooses rows once more in the pose in which a pass has chosen all of them and moved nothing: by now it is known how they bend, so that their order may
+    /// become another one. A pass with the same rows would move nothing again; and no further choice would change them, since a lower bound admits no further
+    /// rows, and of rows that were all chosen before, none is preferred. Returns whether all rows are chosen; otherwise nothing changes.
+    fn reorders_all_rows<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        at: (f64, &V),
+        independent: f64,
+    ) -> bool {
+        let by = (&self.scales, None);
+        let choice = self
+            .choice
+            .choose(system, at, Rank::Revealed(independent), by);
+        match choice {
+            Ok(choice) if choice.rank == system.constraints().len() => {
+                self.choice = choice;
+                true
+            }
+            _ => false,
+        }
     }
 
     /// Checks whether rows are dependent in the pose at the start that are independent next to it. Then
@@ -206,6 +228,55 @@ impl<V: Vector> Constraints<V> {
             for k in 0..workspace.m {
                 let even = 0.5 * (workspace.positions[k] + workspace.rates[k]) - workspace.row[k];
                 self.scales.record_curvature(k, 0.5 * even.abs());
+            }
+        }
+        self.limit_curvatures(system, workspace, (t, q), &mut s);
+    }
+
+    /// Replaces changes of rows that are not known to second order. Where a coordinate is much greater than the length over which a row turns, as far from the origin that
+    /// of the distance from a point, the second order says that its terms grow with the square of the coordinate, though no row is anywhere that long: it would
+    /// be taken for one that all but vanishes here. A row that is weak for its change alone is evaluated where it has changed.
+    fn limit_curvatures<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        workspace: &mut Workspace<'_, S::Matrix>,
+        (t, q): (f64, &V),
+        there: &mut V,
+    ) {
+        system.constraint_matrix(t, q, workspace.matrix);
+        let n = workspace.n.max(1);
+        let mut some_are_weak = false;
+        for (weak, (k, row)) in
+            (workspace.rates.iter_mut()).zip(workspace.matrix.chunks_exact(n).enumerate())
+        {
+            let is_weak = self.scales.strength(k, row, q) < TIGHT;
+            *weak = f64::from(u8::from(is_weak));
+            some_are_weak |= is_weak;
+        }
+        if !some_are_weak {
+            return;
+        }
+        workspace.positions.fill(0.0);
+        for part in 0..DISPLACEMENTS {
+            self.scales.displacement(part, there);
+            for (there, q) in there.as_mut_slice().iter_mut().zip(q.as_slice()) {
+                *there += q;
+            }
+            system.constraint_matrix(t, there, workspace.matrix);
+            let rows = workspace.matrix.chunks_exact(n).enumerate();
+            for (most, (k, row)) in workspace.positions.iter_mut().zip(rows) {
+                let [terms, _] = self.scales.sizes_of_terms(k, row, there);
+                // A row that has no value there says nothing.
+                *most = if terms.is_nan() {
+                    f64::INFINITY
+                } else {
+                    most.max(terms)
+                };
+            }
+        }
+        for (k, (most, weak)) in (workspace.positions.iter().zip(&*workspace.rates)).enumerate() {
+            if *weak > 0.0 {
+                self.scales.limit_curvature(k, *most, TIGHT);
             }
         }
     }

@@ -1,6 +1,6 @@
-//! What forces in contacts do to their rates: `G = Wᵀ M⁻¹ W`, with the constraints of the machine obeyed.
+//! The Delassus matrix `G = Wᵀ M⁻¹ W`, the effect of contact forces on contact rates, with the constraints of the machine satisfied.
 //!
-//! With the Cholesky factor `M = L Lᵀ`, a row `w` becomes `y = L⁻¹ wᵀ`, without what of it lies along the rows of the
+//! With the Cholesky factor `M = L Lᵀ`, a row `w` becomes `y = L⁻¹ wᵀ`, without its component along the rows of the
 //! constraints; `Gᵢⱼ = yᵢ·yⱼ`, and a force along `w` adds `L⁻ᵀ y` to the accelerations.
 
 use std::vec::Vec;

@@ -1,4 +1,4 @@
-//! What prescribed motion does against the forces of contacts.
+//! The work of prescribed motion against the forces of contacts.
 //!
 //! A force `λ` along a rate `γ = w v + ∂g/∂t` of a contact adds `u = M⁻¹ (wᵀ λ + Gᵀ ν)` to the accelerations, where `ν` keeps the constraints,
 //! and so `p·u` to the power, where `p = ∂T/∂v` is the momentum. Of this the contact takes `−λ γ`, by friction or by yielding. The rest,
@@ -7,7 +7,7 @@
 //! P = p·u − λ γ,
 //! ```
 //!
-//! is done by what moves as prescribed: walls, bodies that are driven, and moving constraints. Where only a wall moves, `p·u = λ w v` and
+//! is the power of prescribed motion: of walls, driven bodies and moving constraints. Where only a wall moves, `p·u = λ w v` and
 //! `P = −λ ∂g/∂t`. If the same machine has coordinates relative to this wall, `γ` is free of `t` and the momentum is not `M v`; P is the same, since
 //! energies, forces and rates are. All this holds for impulses as well, with the means of `v` and `γ` before and after.
 

@@ -1,4 +1,4 @@
-//! What a run tells of its unilateral contacts.
+//! Events of unilateral contacts, as a run reports them.
 
 use std::string::String;
 
@@ -49,11 +49,13 @@ pub enum ContactEventKind {
     Slips,
     /// Its slip changes direction.
     Reverses,
+    /// A guide that slides comes to press to its other side.
+    Switches,
 }
 
 impl ContactEventKind {
     /// All of them.
-    pub const ALL: [ContactEventKind; 9] = [
+    pub const ALL: [ContactEventKind; 10] = [
         Self::Impact,
         Self::Closes,
         Self::Lifts,
@@ -63,6 +65,7 @@ impl ContactEventKind {
         Self::Sticks,
         Self::Slips,
         Self::Reverses,
+        Self::Switches,
     ];
 
     /// One word for it.
@@ -77,6 +80,7 @@ impl ContactEventKind {
             Self::Sticks => "sticks",
             Self::Slips => "slips",
             Self::Reverses => "reverses",
+            Self::Switches => "switches",
         }
     }
 }

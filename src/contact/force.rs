@@ -46,13 +46,14 @@ pub fn unilateral_forces<S: System>(
 ) -> Result<Vec<UnilateralForce>, StepError> {
     let At { t, q, v, .. } = at;
     let (mut touching, settled) = settled_at(system, at)?;
+    touching.take_sides(&settled, None);
     touching.set_modes(settled.modes);
     touching.load_layers(system, t, q, v);
     touching.forces_shared(system, at, a, Some(&settled.forces))
 }
 
-/// The contacts that share their load at a state in another way than contacts that all yield alike, although the motion depends on it, because the rule for such
-/// loads could not be computed there, (E79): the accelerations of [`unilateral_forces`] are then some of several that are possible. Usually there are none.
+/// The contacts that share their load at a state otherwise than equally stiff contacts would, although the motion depends on it, because the distribution by this
+/// rule, (E79), could not be computed there: the accelerations of [`unilateral_forces`] are then some of several that are possible. Usually there are none.
 ///
 /// # Errors
 /// As [`unilateral_forces`].

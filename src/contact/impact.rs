@@ -5,6 +5,7 @@ use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix, write_matrix};
 use super::drives::{ActingContact, Drives, DrivesMemory};
+use super::guides::Guides;
 use super::kinematics::{ContactKinematics, ROUNDING};
 use super::problem::{Answer, ContactUnknowns};
 use super::routh::{self, Expansion, SingleImpact};
@@ -92,6 +93,7 @@ pub(super) struct Meeting {
     pub inertia: Inertia,
     /// The images of these, and perhaps others that were needed before.
     pub images: Vec<Vec<f64>>,
+    pub guides: Guides,
     /// The products of the images, row after row.
     pub g: Vec<f64>,
     /// The rates along the directions before they meet.
@@ -128,6 +130,7 @@ impl Meeting {
             directions,
             inertia,
             images,
+            guides,
             g,
             before,
         } = self;
@@ -142,17 +145,38 @@ impl Meeting {
             inertia.write_image(here.row(*direction), image);
         }
         write_matrix(&images[..directions.len()], g, entries);
+        (guides.evaluate(system, (t, q), |direction| here.row(direction))).map_err(singular)?;
+        guides.complete(inertia, contacts, images, g);
         before.clear();
         before.extend(directions.iter().map(|d| here.rates[*d]));
         Ok(())
     }
 
-    /// By how much impulses change the rate of a direction.
+    /// By how much impulses change the rate of a direction. A guide has none along its normal.
     pub fn change(&self, row: usize, impulses: &[[f64; 2]]) -> f64 {
+        if row.is_multiple_of(2) && self.guides.has(self.contacts[row / 2]) {
+            return 0.0;
+        }
         let width = self.directions.len();
         let own = self.g[row * width..][..width].iter();
         let terms = own.zip(impulses.iter().flatten());
         terms.map(|(g, impulse)| g * impulse).sum()
+    }
+
+    /// These impulses, with the reactions of guides in place of what presses on their far sides.
+    fn with_reactions(&self, impulses: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let mut all = impulses.to_vec();
+        let width = self.directions.len();
+        for (place, &k) in self.contacts.iter().enumerate() {
+            if self.guides.has(k) {
+                let row = &self.g[2 * place * width..][..width];
+                let unit = row[2 * place];
+                let terms = row.iter().zip(impulses.as_flattened()).enumerate();
+                let others = terms.filter(|(column, _)| *column != 2 * place);
+                all[place][0] = others.map(|(_, (g, impulse))| g * impulse).sum::<f64>() / unit;
+            }
+        }
+        all
     }
 
     /// The impacts that these impulses are, and by how much they change the rates of coordinates.
@@ -163,6 +187,16 @@ impl Meeting {
         here: &ContactKinematics,
         impulses: &[[f64; 2]],
     ) -> (Vec<Impact>, Vec<f64>) {
+        let with_reactions = if self.guides.are_there() {
+            self.with_reactions(impulses)
+        } else {
+            Vec::new()
+        };
+        let impulses = if with_reactions.is_empty() {
+            impulses
+        } else {
+            &with_reactions[..]
+        };
         let change = (self.inertia).response(&self.images, impulses.iter().flatten().copied());
         let mean = between(v, &change);
         let mut memory = DrivesMemory::new(q);
@@ -280,9 +314,13 @@ impl UnilateralState {
         let here = self.kinematics(system, (t, q, v));
         let rate = |k: &usize| here.rates[2 * k];
         let may = |k: &usize| touches[*k] && !self.is_compliant(*k) && self.carrier(*k).is_none();
+        let may = |k: &usize| may(k) && !self.is_guide(*k);
         let closing = self.in_order().filter(may);
         let fastest = closing.min_by(|a, b| rate(a).total_cmp(&rate(b)));
-        let mut next: Vec<bool> = (0..touches.len()).map(|k| Some(k) == fastest).collect();
+        // A guide takes part in whatever loads it.
+        let mut next: Vec<bool> = (0..touches.len())
+            .map(|k| Some(k) == fastest || self.is_guide(k))
+            .collect();
         self.copy_from_carriers(&mut next);
         next
     }
@@ -411,6 +449,7 @@ impl UnilateralState {
         let friction = here.friction(contact)[0];
         match self.carrier(contact) {
             Some(_) if self.first(contact) != contact => ContactUnknowns::SecondTangent,
+            None if self.is_guide(contact) => ContactUnknowns::Guide { friction },
             None => ContactUnknowns::Both {
                 friction,
                 known_normal: known_normal[place],
@@ -473,7 +512,13 @@ impl UnilateralState {
             }
             ImpactLaw::PoissonGlocker => {
                 let compression = solved(&none, before)?.forces;
-                let middle = after(before, &compression);
+                let mut middle = after(before, &compression);
+                for (middle, &k) in middle.chunks_exact_mut(2).zip(colliding) {
+                    if self.is_guide(k) {
+                        // The reaction of the expansion is that of its own impulses.
+                        middle[0] = 0.0;
+                    }
+                }
                 // The expansion gives at least this, and the solution is what it adds to that.
                 let given: Vec<[f64; 2]> = (colliding.iter().zip(&compression))
                     .map(|(&k, impulse)| [here.restitution(k)[0] * impulse[0], 0.0])

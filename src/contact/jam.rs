@@ -1,13 +1,13 @@
-//! Contacts that jam: their friction, while they slip as they do, admits no accelerations of all of them together.
+//! Contacts that jam: with their present slips, their friction admits no accelerations of all of them together.
 //!
-//! A disc that is pushed in between two others, or between one and a wall, may press the more the more it is pressed. Then no finite forces obey the laws, and the
-//! slips that are in the way stop at once, by impulses, although no gap closes. They are the limit of a step of time stepping as its length goes to 0,
+//! If a disc is pushed in between two others, or between one and a wall, friction may increase the normal forces, and these the friction, without bound. Then no finite
+//! forces obey the laws, and the slips that prevent a solution stop at once, by impulses, although no gap closes. These are the limit of a step of time stepping as its length goes to 0,
 //!
 //! ```text
 //! M (v⁺ − v) = h f + W Λ,    0 ≤ Λₙ ⊥ γₙ⁺ ≥ 0,    −Λₜ ∈ μ Λₙ Sgn γₜ⁺,    h → 0
 //! ```
 //!
-//! in which Λ does not go to 0 with h. There is always a solution, since the problem of a step has one, and it takes energy: `ΔT = Λₜ·γₜ⁺ − ½ Λ·G Λ`.
+//! in which Λ does not go to 0 with h. There is always a solution, since the problem of a step has one, and it dissipates energy: `ΔT = Λₜ·γₜ⁺ − ½ Λ·G Λ`.
 //! (D. E. Stewart, Arch. Ration. Mech. Anal. 145 (1998) 215–260.)
 
 use std::vec;

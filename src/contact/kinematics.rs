@@ -1,4 +1,4 @@
-//! Gaps, rates, and what they are made of: the kinematics of contacts at one state.
+//! The kinematics of contacts at one state: gaps, rates, their rows and biases.
 
 use std::sync::Arc;
 use std::vec::Vec;

@@ -1,4 +1,4 @@
-//! Contacts in time stepping: which impulses they give in a step of a fixed length.
+//! Contacts in time stepping: their impulses in a step of a fixed length.
 //!
 //! ```text
 //! qₘ = q + h/2 v        M (v⁺ − v) = h f + Σ wₙ Λₙ + Σ wₜ Λₜ        q⁺ = qₘ + h/2 v⁺
@@ -8,8 +8,8 @@
 //! with everything in the middle of the step; for those that were closed, and are beside it there, by
 //! `0 ≤ Λₙ ⊥ γₙ⁺ + e min(γₙ, 0) + 2/h g ≥ 0`. With `e γₙ` a contact on its gap that opens by γₙ would come back beyond it, by `−(1 + e) γₙ`, and in the next step open
 //! by `e (1 + e) γₙ`: ever faster if e > 0.618. (J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics*, 1988,
-//! section 8.) This is the law `newton`, with all contacts at once; with other laws, and with static friction, a step is that of `laws`. What then is
-//! penetrated at the end of a step is moved out of it by the least that inertia allows (V. Acary,
+//! section 8.) This is the law `newton`, with all contacts at once; `laws` has the step for other laws and for static friction. A penetration at the end of a
+//! step is removed by the smallest displacement in the metric of inertia (V. Acary,
 //! *Projected event-capturing time-stepping schemes for nonsmooth mechanical systems with unilateral contact and Coulomb's
 //! friction*, Comput. Methods Appl. Mech. Eng. 256 (2013) 224–250).
 
@@ -122,10 +122,15 @@ impl UnilateralState {
     /// # Errors
     /// The first contact that yields.
     pub fn check_stepping(&self, t: f64) -> Result<(), StepError> {
-        match (0..self.modes().len()).find(|k| self.is_compliant(*k)) {
+        let is_not_stepped = |k: &usize| self.is_compliant(*k) || self.is_guide(*k);
+        match (0..self.modes().len()).find(is_not_stepped) {
             Some(contact) => Err(StepError::Contact {
                 contact,
-                trouble: ContactTrouble::NotStepped,
+                trouble: if self.is_guide(contact) {
+                    ContactTrouble::GuideNotStepped
+                } else {
+                    ContactTrouble::NotStepped
+                },
                 t,
             }),
             None => Ok(()),

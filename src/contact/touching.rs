@@ -1,4 +1,4 @@
-//! What is closed, slips and sticks: the state of contacts between two events.
+//! The state of contacts between two events: which are closed, which slip, and which stick.
 
 mod compliant;
 mod forces_of_step;
@@ -76,6 +76,9 @@ pub(crate) use crate::contact_law::Margin;
 pub(crate) struct UnilateralState {
     modes: Vec<Mode>,
     has_friction: Vec<bool>,
+    /// How many contacts are guides, the last ones; and to which side each contact presses when it slides, 1 or −1. Only guides press to both.
+    guides: usize,
+    sides: Vec<f64>,
     /// The contacts in the order in which problems are written: see [`order_of_problems`].
     order_of_problems: Arc<[usize]>,
     /// How large each coordinate is at least as part of a gap.
@@ -119,6 +122,8 @@ pub(crate) struct UnilateralState {
 clone_into_memory!(UnilateralState {
     modes,
     has_friction,
+    guides,
+    sides,
     order_of_problems,
     least_sizes,
     with_face,
@@ -240,6 +245,8 @@ impl UnilateralState {
             order_of_problems: order_of_problems(system),
             carrier,
             across,
+            guides: system.guides().min(has_friction.len()),
+            sides: vec![1.0; has_friction.len()],
             has_friction,
             least_sizes: least_sizes(system),
             with_face: contacts_with_face(system),
@@ -409,6 +416,51 @@ impl UnilateralState {
         let here = self.kinematics_of_all(system, (t, q, v));
         let falls = (0..self.modes.len()).map(|k| -here.acceleration(2 * k, &free)[0]);
         falls.fold(0.0, f64::max)
+    }
+
+    /// Whether a contact is a guide.
+    pub fn is_guide(&self, contact: usize) -> bool {
+        contact + self.guides >= self.modes.len()
+    }
+
+    /// Whether any contact is a guide.
+    pub fn has_guides(&self) -> bool {
+        self.guides > 0
+    }
+
+    /// What a contact presses with, of its normal force: a guide presses to either side.
+    pub(super) fn pressing(&self, contact: usize, normal: f64) -> f64 {
+        if self.is_guide(contact) {
+            normal.abs()
+        } else {
+            normal
+        }
+    }
+
+    /// To which side each contact presses.
+    pub fn sides(&self) -> &[f64] {
+        &self.sides
+    }
+
+    /// The guides that slide as they did, and press to other sides than they did.
+    pub fn switched(&self, modes: &[Mode], sides: &[f64]) -> Vec<usize> {
+        let slides = |k: usize| matches!(modes[k], Mode::Slides(_)) && modes[k] == self.modes[k];
+        let is_switched = |k: &usize| slides(*k) && sides[*k] != self.sides[*k];
+        (0..self.modes.len()).filter(is_switched).collect()
+    }
+
+    /// Takes the sides to which guides press from their normal reactions, unless these are rounding. A reaction that has just changed its sign is 0, and its guide
+    /// presses to the other side from now on: one that has `switched`.
+    pub fn take_sides(&mut self, settled: &Settled, switched: Option<usize>) {
+        let first = self.modes.len() - self.guides;
+        for (k, side) in self.sides.iter_mut().enumerate().skip(first) {
+            let ([normal, _], size) = (settled.forces[k], settled.sizes_of_guides[k]);
+            if switched == Some(k) {
+                *side = -*side;
+            } else if normal.abs() > ROUNDING_OF_FORCES * size {
+                *side = normal.signum();
+            }
+        }
     }
 
     /// Whether impacts of touching contacts follow each other, instead of being one.

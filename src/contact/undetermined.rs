@@ -1,10 +1,10 @@
 //! Normal forces that rigid bodies leave undetermined, (E79).
 //!
-//! If contacts depend on each other, as the four feet of a table do, there are forces that keep each other in equilibrium: with the rows wₙ
+//! If contacts depend on each other, as the four feet of a table do, there are forces that are in equilibrium among themselves: with the rows wₙ
 //! of gaps and wₜ of slips that are held at 0, `Σ wₙᵀ κₙ + Σ wₜᵀ κₜ = 0`. They may be added to any solution of the equations of motion. Where
-//! contacts slip, their friction follows their normal forces, so that the motion itself depends on what is added. The rule is that of bodies
-//! whose contacts yield alike, however little: a normal force is proportional to a penetration that a small motion of the bodies makes, and
-//! nothing where that motion opens the contact,
+//! contacts slip, their friction depends on their normal forces, so that the motion itself depends on the forces that are added. The rule is that of
+//! contacts that are all equally stiff, in the limit of infinite stiffness: a normal force is proportional to the penetration that a small motion of the
+//! bodies causes, and 0 where that motion opens the contact,
 //!
 //! ```text
 //! λₙᵢ = max(0, cᵢ),      κₙ·c = 0  for all κ

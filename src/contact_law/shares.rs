@@ -1,6 +1,6 @@
 //! Forces that the equations of motion leave undetermined: whether contacts that depend on each other hold with some of them.
 //!
-//! Contacts at rest that depend on each other determine only sums of their forces: which of two blocks on a rod holds how much does not
+//! If contacts at rest depend on each other, the equations determine only sums of their forces: for two blocks on a rod, the share of each does not
 //! follow from rigid bodies. They all hold if and only if *some* forces that satisfy the equations are admissible for every contact. With
 //! the undetermined forces `y`, normal forces `Nᵢ(y)` and friction forces `Tᵢ(y)` are affine, and the shared margin
 //!

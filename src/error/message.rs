@@ -1,42 +1,15 @@
 //! The messages of errors of runs.
 
 use core::fmt::{self, Display};
-use std::string::String;
 
 use super::{Error, KeptContradiction};
-
-/// A number in a message, with as few digits as necessary: `0.25`, `1e300`.
-pub(super) struct ShortNumber(pub f64);
-
-impl Display for ShortNumber {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let size = self.0.abs();
-        if size == 0.0 || !size.is_finite() || (1e-4..1e9).contains(&size) {
-            write!(f, "{}", self.0)
-        } else {
-            write!(f, "{:e}", self.0)
-        }
-    }
-}
-
-/// Names in a sentence: `` `a`, `b` and `c` ``.
-pub(super) fn quoted(names: &[String]) -> String {
-    let quoted = |name: &String| std::format!("`{name}`");
-    match names {
-        [] => String::new(),
-        [one] => quoted(one),
-        [first @ .., last] => {
-            let first: std::vec::Vec<String> = first.iter().map(quoted).collect();
-            std::format!("{} and {}", first.join(", "), quoted(last))
-        }
-    }
-}
+use crate::sentences::{Quoted, ShortNumber, said_as_it_is, sentences};
 
 /// ``with `x` and `y` kept, `rod` is 0.21 m^2 off``
 impl Display for KeptContradiction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.kept.is_empty() {
-            write!(f, "with {} kept, ", quoted(&self.kept))?;
+            write!(f, "with {} kept, ", Quoted(&self.kept))?;
         }
         let of = if self.of_rates { "the rate of " } else { "" };
         write!(f, "{of}`{}` is {:.4e}", self.constraint, self.residual)?;
@@ -47,359 +20,181 @@ impl Display for KeptContradiction {
     }
 }
 
+said_as_it_is! { std::vec::Vec<KeptContradiction> }
+#[cfg(feature = "interpreter")]
+said_as_it_is! { std::vec::Vec<super::Diagnostic> }
+
 impl Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            #[cfg(feature = "interpreter")]
-            Self::Spec {
-                diagnostics,
-                omitted,
-            } => {
-                for (i, diagnostic) in diagnostics.iter().enumerate() {
-                    write!(f, "{}{diagnostic}", if i == 0 { "" } else { "\n" })?;
-                }
-                match omitted {
-                    0 => Ok(()),
-                    _ => write!(f, "\n{omitted} more errors are not shown"),
-                }
-            }
-            Self::UnknownName(unknown) => write!(f, "{unknown}"),
-            #[cfg(feature = "interpreter")]
-            Self::MissingParameters(missing) => write!(f, "{missing}"),
-            #[cfg(feature = "interpreter")]
-            Self::NoMachineCode(none) => write!(f, "{none}"),
-            #[cfg(feature = "interpreter")]
-            Self::NoNumbers(none) => write!(f, "{none}"),
-            Self::HasFriction(error) => write!(f, "{error}"),
-            Self::EnergiesUnknown { t } => write!(
-                f,
-                "no energy balance can be computed: the system does not give its kinetic and potential energies at t = {t} s; leave \
-                 out `energy_balance(true)`, or provide both energies",
-                t = ShortNumber(*t)
-            ),
-            Self::NoEnd => {
-                write!(
-                    f,
-                    "the simulation has no end time: set it with `until(…)`, in seconds"
-                )
-            }
-            Self::InvalidSetting {
-                setting,
-                value,
-                needed,
-            } => {
-                write!(
-                    f,
-                    "`{setting}({value})`: must be {needed}",
-                    value = ShortNumber(*value)
-                )
-            }
-            Self::UnknownCoordinate { name } => write!(f, "no coordinate is named `{name}`"),
-            Self::UnknownVariable { name, known } => {
-                let known = if known.is_empty() {
-                    "only the state".into()
-                } else {
-                    known.join(", ")
-                };
-                write!(
-                    f,
-                    "accelerations are not differentiated with respect to `{name}`, which must be in the description's \
-                     `derivatives`; available: {known}"
-                )
-            }
-            Self::ConstrainedSensitivity { constraint } => write!(
-                f,
-                "the motion is subject to the constraint `{constraint}`, and derivatives of a start that satisfies the constraints \
-                 are not known: use differences of runs, or coordinates that need no constraint"
-            ),
-            Self::CollidingSensitivity { contact } => write!(
-                f,
-                "the motion reaches the contact `{contact}`, where derivatives jump: use `lagrangian sensitivities`, or \
-                 `lagrangian_linear::across` in programs, to carry them across"
-            ),
-            Self::UnknownMethod { name } => {
-                write!(f, "no method of integration is named `{name}`; there are")?;
-                for (i, method) in crate::Method::all().enumerate() {
-                    write!(
-                        f,
-                        "{} `{}`",
-                        if i == 0 { "" } else { "," },
-                        method.tableau.name
-                    )?;
-                }
-                Ok(())
-            }
-            Self::NoSeries { reason } => write!(
-                f,
-                "the motion has no Taylor series here: {reason}; use another method, such as `dop853`"
-            ),
-            Self::Contact {
-                contact,
-                trouble,
-                t,
-                q,
-                v,
-            } => {
-                let words = trouble.words();
-                write!(
-                    f,
-                    "the contact `{contact}` at t = {t} s: {words}",
-                    t = ShortNumber(*t)
-                )?;
-                if !q.is_empty() {
-                    write!(f, "; the coordinates are {q:?} and their rates {v:?}")?;
-                }
-                Ok(())
-            }
-            Self::ParameterNotFinite { parameter, value } => {
-                write!(
-                    f,
-                    "parameter `{parameter}` is {value}; it must be a finite number",
-                    value = ShortNumber(*value)
-                )
-            }
-            Self::StartNotFinite { name, value } => {
-                write!(
-                    f,
-                    "the start value of `{name}` is {value}; it must be a finite number",
-                    value = ShortNumber(*value)
-                )
-            }
-            Self::NegativeDistance {
-                distance,
-                value,
-                angle,
-            } => {
-                write!(
-                    f,
-                    "the distance `{distance}` is {value} at the start, and in Cartesian coordinates it is not negative; start from the \
-                     positive distance with `{angle}` changed by pi, or run the machine in the coordinates of its description",
-                    value = ShortNumber(*value)
-                )
-            }
-            Self::OtherParameters {
-                parameter,
-                value,
-                other,
-            } => {
-                write!(
-                    f,
-                    "the parameter `{parameter}` is {value} in the machine in Cartesian coordinates and {other} in that of the description; \
-                     set the parameters first, and then make the one from the other by `in_cartesian`",
-                    value = ShortNumber(*value),
-                    other = ShortNumber(*other)
-                )
-            }
-            Self::InputNotFinite { input, value, t } => {
-                write!(
-                    f,
-                    "input `{input}` is {value} at t = {t} s; it must be a finite number",
-                    t = ShortNumber(*t),
-                    value = ShortNumber(*value)
-                )
-            }
-            Self::InputEnded { input, why, t } => {
-                write!(f, "{input} {why} t = {t} s", t = ShortNumber(*t))
-            }
-            Self::NotFinite { coordinate, t } => write!(
-                f,
-                "`{coordinate}`, its rate or its acceleration has no finite value at t = {t} s, and shorter steps do not help",
-                t = ShortNumber(*t)
-            ),
-            Self::SingularMassMatrix {
-                coordinate,
-                ratio,
-                t,
-            } => no_inertia(f, coordinate, *ratio, *t),
-            Self::FrictionParadox {
-                contact,
-                several,
-                t,
-                q,
-                v,
-            } => {
-                let count = if *several {
-                    "several motions may satisfy"
-                } else {
-                    "no motion satisfies"
-                };
-                write!(
-                    f,
-                    "{count} the friction law of `{contact}` at t = {t} s",
-                    t = ShortNumber(*t)
-                )?;
-                if !q.is_empty() {
-                    write!(f, ", q = {q:?}, v = {v:?}")?;
-                }
-                write!(
-                    f,
-                    ": Coulomb's law with rigid bodies does not determine what happens (Painlevé's paradox)"
-                )
-            }
-            Self::DependentConstraint {
-                constraint,
-                ratio,
-                t,
-            } => write!(
-                f,
-                "the constraint `{constraint}` becomes dependent on others at t = {t} s, and shorter steps do not help (elimination \
-                 leaves {ratio:.1e} of its element on the diagonal of G M⁻¹ Gᵀ): the reactions are not unique there. Leave out a constraint \
-                 that follows from others, or avoid the pose with other start values or other parameters",
-                t = ShortNumber(*t)
-            ),
-            Self::InconsistentConstraints {
-                constraint,
-                with,
-                residual,
-                t,
-            } if with.is_empty() => write!(
-                f,
-                "the constraint `{constraint}` cannot be met near the state at t = {t} s: its residual is \
-                 {residual:.1e} of the size of its terms",
-                t = ShortNumber(*t)
-            ),
-            Self::InconsistentConstraints {
-                constraint,
-                with,
-                residual,
-                t,
-            } => write!(
-                f,
-                "the constraint `{constraint}` contradicts {} at t = {t} s: its residual is {residual:.1e} of the size of its terms",
-                quoted(with),
-                t = ShortNumber(*t)
-            ),
-            Self::Fork {
-                constraint,
-                left,
-                t,
-            } => write!(
-                f,
-                "branches of the motion meet near t = {t} s: the constraint `{constraint}` becomes dependent on the others (the \
-                 part of its gradient that is independent of them has {left:.1e} of its length at the start), and neither the motion nor \
-                 inertia determines on which branch the machine continues. Start it slightly away from that pose, or with rates along one of the branches",
-                t = ShortNumber(*t)
-            ),
-            Self::KeptStart { contradictions, t } => {
-                let are = if contradictions.len() == 1 { "" } else { "s" };
-                write!(
-                    f,
-                    "the start values that are kept contradict the constraint{are} at t = {} s. However the other values are changed, ",
-                    ShortNumber(*t)
-                )?;
-                for (i, contradiction) in contradictions.iter().enumerate() {
-                    write!(f, "{}{contradiction}", if i == 0 { "" } else { "; " })?;
-                }
-                write!(f, ". Keep fewer values, or give values that are consistent")
-            }
-            Self::NoWorkspaceForConstraints { t } => write!(
-                f,
-                "the machine provides no workspace for its constraints at t = {t} s",
-                t = ShortNumber(*t)
-            ),
-            Self::NoWorkspaceForContacts { t } => write!(
-                f,
-                "the machine provides no workspace for its contacts at t = {t} s",
-                t = ShortNumber(*t)
-            ),
-            Self::ContactsNotDifferentiated { contact, t } => write!(
-                f,
-                "the accelerations cannot be differentiated at t = {t} s: `{contact}` may stick or slide, and a sticking contact \
-                 has no linearization",
-                t = ShortNumber(*t)
-            ),
-            Self::InputsChanged { t } => write!(
-                f,
-                "the motion before t = {t} s must be read before the inputs are changed there",
-                t = ShortNumber(*t)
-            ),
-            Self::StepTooSmall {
-                coordinate,
-                step,
-                t,
-            } => write!(
-                f,
-                "the step shrank to {step:e} s at t = {t} s, and the error of `{coordinate}` is still too large: the \
-                 motion has a jump, a kink or a pole there, or the tolerance is too small",
-                t = ShortNumber(*t)
-            ),
-            Self::TooManySteps { steps, t, until } => write!(
-                f,
-                "{steps} steps reach only t = {t} s of {until} s: allow more with `max_steps`, or raise the tolerance",
-                t = ShortNumber(*t),
-                until = ShortNumber(*until)
-            ),
-            Self::AssumptionEnded { assumption, t } => {
-                write!(
-                    f,
-                    "the machine assumes `{assumption}`, which does not hold at t = {t} s",
-                    t = ShortNumber(*t)
-                )
-            }
-            Self::EquationsViolated {
-                row,
-                is_constraint,
-                residual,
-                terms,
-                t,
-            } => {
-                let (of, equation) = if *is_constraint {
-                    ("the constraint", "G a - γ")
-                } else {
-                    ("the coordinate", "M a - f - Gᵀ λ")
-                };
-                write!(
-                    f,
-                    "the accelerations do not satisfy the equations of motion to within rounding at t = {t} s: in the row of {of} \
-                     `{row}`, {equation} is {residual:e} compared with terms of {terms:e}; this is an error of the program \
-                     and not of the machine, and nothing that follows from it can be trusted: please report it",
-                    t = ShortNumber(*t)
-                )
-            }
-            Self::EventNotFinite { event, t } => {
-                write!(
-                    f,
-                    "the function of event `{event}` is not a number at t = {t} s",
-                    t = ShortNumber(*t)
-                )
-            }
-            Self::OutsideRun { t, from, to } => {
-                write!(
-                    f,
-                    "t = {t} s is outside of the run, which goes from {from} s to {to} s",
-                    t = ShortNumber(*t),
-                    from = ShortNumber(*from),
-                    to = ShortNumber(*to)
-                )
-            }
-            Self::NoEnergyBalance => {
-                write!(
-                    f,
-                    "no energy balance was computed; set `energy_balance(true)`"
-                )
-            }
-            Self::ContactsForgotten { t } => {
-                write!(
-                    f,
-                    "the states of the contacts at t = {t} s were not kept; leave out `forget_contact_phases()`"
-                )
-            }
-            Self::StepsForgotten => {
-                write!(
-                    f,
-                    "the steps of this run were not kept; leave out `forget_steps()`"
-                )
-            }
-            Self::Stepper { message } => write!(f, "{message}"),
-        }
+        self.write_sentence(f)
     }
 }
 
+sentences! { Error, written to f:
+    #[cfg(feature = "interpreter")]
+    Spec { diagnostics, omitted } => {
+        for (i, diagnostic) in diagnostics.iter().enumerate() {
+            write!(f, "{}{diagnostic}", if i == 0 { "" } else { "\n" })?;
+        }
+        match omitted {
+            0 => Ok(()),
+            _ => write!(f, "\n{omitted} more errors are not shown"),
+        }
+    }
+    UnknownName(unknown) => "{unknown}"
+    #[cfg(feature = "interpreter")]
+    MissingParameters(missing) => "{missing}"
+    #[cfg(feature = "interpreter")]
+    NoMachineCode(none) => "{none}"
+    #[cfg(feature = "interpreter")]
+    NoNumbers(none) => "{none}"
+    HasFriction(error) => "{error}"
+    EnergiesUnknown { t } =>
+        "no energy balance can be computed: the system does not give its kinetic and potential energies at t = {t} s; leave \
+         out `energy_balance(true)`, or provide both energies"
+    NoEnd => "the simulation has no end time: set it with `until(…)`, in seconds"
+    InvalidSetting { setting, value, needed } => "`{setting}({value})`: must be {needed}"
+    UnknownCoordinate { name } => "no coordinate is named `{name}`"
+    UnknownVariable { name, known } => {
+        let known = match known.0 {
+            [] => "only the state".into(),
+            names => names.join(", "),
+        };
+        write!(
+            f,
+            "accelerations are not differentiated with respect to `{name}`, which must be in the description's \
+             `derivatives`; available: {known}"
+        )
+    }
+    ConstrainedSensitivity { constraint } =>
+        "the motion is subject to the constraint `{constraint}`, and derivatives of a start that satisfies the constraints \
+         are not known: use differences of runs, or coordinates that need no constraint"
+    CollidingSensitivity { contact } =>
+        "the motion reaches the contact `{contact}`, where derivatives jump: use `lagrangian sensitivities`, or \
+         `lagrangian_linear::across` in programs, to carry them across"
+    UnknownMethod { name } => {
+        write!(f, "no method of integration is named `{name}`; there are")?;
+        for (i, method) in crate::Method::all().enumerate() {
+            write!(f, "{} `{}`", if i == 0 { "" } else { "," }, method.tableau.name)?;
+        }
+        Ok(())
+    }
+    NoSeries { reason } =>
+        "the motion has no Taylor series here: {reason}; use another method, such as `dop853`"
+    Contact { contact, trouble, t, q, v } => {
+        write!(f, "the contact `{contact}` at t = {t} s: {}", trouble.words())?;
+        if !q.is_empty() {
+            write!(f, "; the coordinates are {q:?} and their rates {v:?}")?;
+        }
+        Ok(())
+    }
+    ParameterNotFinite { parameter, value } =>
+        "parameter `{parameter}` is {value}; it must be a finite number"
+    StartNotFinite { name, value } =>
+        "the start value of `{name}` is {value}; it must be a finite number"
+    NegativeDistance { distance, value, angle } =>
+        "the distance `{distance}` is {value} at the start, and in Cartesian coordinates it is not negative; start from the \
+         positive distance with `{angle}` changed by pi, or run the machine in the coordinates of its description"
+    OtherParameters { parameter, value, other } =>
+        "the parameter `{parameter}` is {value} in the machine in Cartesian coordinates and {other} in that of the description; \
+         set the parameters first, and then make the one from the other by `in_cartesian`"
+    InputNotFinite { input, value, t } =>
+        "input `{input}` is {value} at t = {t} s; it must be a finite number"
+    InputEnded { input, why, t } => "{input} {why} t = {t} s"
+    NotFinite { coordinate, t } =>
+        "`{coordinate}`, its rate or its acceleration has no finite value at t = {t} s, and shorter steps do not help"
+    SingularMassMatrix { coordinate, ratio, t } => { no_inertia(f, coordinate, ratio.0, t) }
+    FrictionParadox { contact, several, t, q, v } => {
+        let count = if *several {
+            "several motions may satisfy"
+        } else {
+            "no motion satisfies"
+        };
+        write!(f, "{count} the friction law of `{contact}` at t = {t} s")?;
+        if !q.is_empty() {
+            write!(f, ", q = {q:?}, v = {v:?}")?;
+        }
+        write!(
+            f,
+            ": Coulomb's law with rigid bodies does not determine what happens (Painlevé's paradox)"
+        )
+    }
+    DependentConstraint { constraint, ratio, t } =>
+        "the constraint `{constraint}` becomes dependent on others at t = {t} s, and shorter steps do not help (elimination \
+         leaves {ratio:.1e} of its element on the diagonal of G M⁻¹ Gᵀ): the reactions are not unique there. Leave out a constraint \
+         that follows from others, or avoid the pose with other start values or other parameters"
+    InconsistentConstraints { constraint, with, residual, t } => {
+        if with.is_empty() {
+            write!(f, "the constraint `{constraint}` cannot be met near the state at t = {t} s")?;
+        } else {
+            write!(f, "the constraint `{constraint}` contradicts {with} at t = {t} s")?;
+        }
+        write!(f, ": its residual is {residual:.1e} of the size of its terms")
+    }
+    Fork { constraint, left, t } =>
+        "branches of the motion meet near t = {t} s: the constraint `{constraint}` becomes dependent on the others (the \
+         part of its gradient that is independent of them has {left:.1e} of its length at the start), and neither the motion nor \
+         inertia determines on which branch the machine continues. Start it slightly away from that pose, or with rates along one of the branches"
+    KeptStart { contradictions, t } => {
+        let are = if contradictions.len() == 1 { "" } else { "s" };
+        write!(
+            f,
+            "the start values that are kept contradict the constraint{are} at t = {t} s. However the other values are changed, "
+        )?;
+        for (i, contradiction) in contradictions.iter().enumerate() {
+            write!(f, "{}{contradiction}", if i == 0 { "" } else { "; " })?;
+        }
+        write!(f, ". Keep fewer values, or give values that are consistent")
+    }
+    NoWorkspaceForConstraints { t } =>
+        "the machine provides no workspace for its constraints at t = {t} s"
+    NoWorkspaceForContacts { t } =>
+        "the machine provides no workspace for its contacts at t = {t} s"
+    ContactsNotDifferentiated { contact, t } =>
+        "the accelerations cannot be differentiated at t = {t} s: `{contact}` may stick or slide, and a sticking contact \
+         has no linearization"
+    InputsChanged { t } =>
+        "the motion before t = {t} s must be read before the inputs are changed there"
+    StepTooSmall { coordinate, step, t } =>
+        "the step shrank to {step:e} s at t = {t} s, and the error of `{coordinate}` is still too large: the \
+         motion has a jump, a kink or a pole there, or the tolerance is too small"
+    TooManySteps { steps, t, until } =>
+        "{steps} steps reach only t = {t} s of {until} s: allow more with `max_steps`, or raise the tolerance"
+    AssumptionEnded { assumption, t } =>
+        "the machine assumes `{assumption}`, which does not hold at t = {t} s"
+    EquationsViolated { row, is_constraint, residual, terms, t } => {
+        let (of, equation) = if *is_constraint {
+            ("the constraint", "G a - γ")
+        } else {
+            ("the coordinate", "M a - f - Gᵀ λ")
+        };
+        write!(
+            f,
+            "the accelerations do not satisfy the equations of motion to within rounding at t = {t} s: in the row of {of} \
+             `{row}`, {equation} is {residual:e} compared with terms of {terms:e}; this is an error of the program \
+             and not of the machine, and nothing that follows from it can be trusted: please report it"
+        )
+    }
+    EventNotFinite { event, t } =>
+        "the function of event `{event}` is not a number at t = {t} s"
+    OutsideRun { t, from, to } =>
+        "t = {t} s is outside of the run, which goes from {from} s to {to} s"
+    NoEnergyBalance => "no energy balance was computed; set `energy_balance(true)`"
+    ContactsForgotten { t } =>
+        "the states of the contacts at t = {t} s were not kept; leave out `forget_contact_phases()`"
+    StepsForgotten => "the steps of this run were not kept; leave out `forget_steps()`"
+    Stepper { message } => "{message}"
+}
+
 /// Writes why the mass matrix cannot be inverted, and what to do.
-fn no_inertia(f: &mut fmt::Formatter<'_>, coordinate: &str, ratio: f64, t: f64) -> fmt::Result {
+fn no_inertia(
+    f: &mut fmt::Formatter<'_>,
+    coordinate: &str,
+    ratio: f64,
+    t: ShortNumber,
+) -> fmt::Result {
     /// Elimination that leaves more than this has not been stopped by rounding.
     const MORE_THAN_ROUNDING: f64 = 1e-9;
-    let t = ShortNumber(t);
     if ratio.is_finite() && ratio.abs() > MORE_THAN_ROUNDING {
         return write!(
             f,

@@ -3,7 +3,7 @@
 use core::fmt::{self, Display};
 use std::string::String;
 
-use super::message::{ShortNumber, quoted};
+use crate::sentences::{ShortNumber, sentences};
 
 /// Warnings of a run that ended without an error.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +62,7 @@ pub enum Warning {
         /// The number of instants at which contacts jammed.
         instants: usize,
     },
-    /// The motion depends on how contacts share their load, which rigid bodies leave undetermined. The distribution of contacts that all yield alike could not
+    /// The motion depends on how contacts share their load, which rigid bodies leave undetermined. The distribution of equally stiff contacts could not
     /// be computed, and another possible one was taken.
     LoadShared {
         /// When this was so first, in s.
@@ -108,121 +108,72 @@ pub enum Warning {
 
 impl Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::ToleranceRaised { asked, used } => write!(
-                f,
-                "a relative tolerance of {asked:e} asks for more digits than the numbers have; {used:e} was used"
-            ),
-            Self::LargeAngle {
-                name,
-                angle,
-                spacing,
-            } => write!(
-                f,
-                "`{name}` reached {angle:.3e} rad, where numbers are {spacing:.1e} rad apart: forces that depend on it are no more \
-                 accurate; start it within a few turns of 0"
-            ),
-            Self::EnergyUnexplained {
-                residual,
-                explained,
-                relative,
-            } => write!(
-                f,
-                "the energies do not balance: the residual is {residual:.1e} J, {relative:.1e} of the energy exchanged, \
-                 while tolerance and rounding explain {explained:.1e} J; the motion is less accurate than requested, or \
-                 its equations and its energies are inconsistent"
-            ),
-            Self::ImpactGains {
-                contact,
-                t,
-                gain,
-                impacts,
-            } => write!(
-                f,
-                "impacts created energy, {impacts} of them, the most {gain:.2e} J at t = {t} s when `{contact}` closed: \
-                 Newton's law with friction can do so; `law: stronge` never does",
-                t = ShortNumber(*t)
-            ),
-            Self::ContactsJammed {
-                t,
-                contacts,
-                instants,
-            } => write!(
-                f,
-                "the friction of {} admitted no motion with their slips or their restitution at t = {t} s: they stopped, or met without \
-                 restitution{}",
-                quoted(contacts),
-                InstantsOfMany(*instants),
-                t = ShortNumber(*t)
-            ),
-            Self::LoadShared {
-                t,
-                contacts,
-                instants,
-            } => write!(
-                f,
-                "the motion depends on how {} share their load at t = {t} s: the distribution of contacts that all yield alike \
-                 could not be computed, and another possible one was taken{}",
-                quoted(contacts),
-                InstantsOfMany(*instants),
-                t = ShortNumber(*t)
-            ),
-            Self::HandedOver {
-                t,
-                step,
-                crowd,
-                times,
-                back_at,
-            } => {
-                match crowd {
-                    Some((count, within)) => write!(
-                        f,
-                        "contacts changed at {count} instants within {within:.1e} s"
-                    )?,
-                    None => write!(f, "contacts did not settle at one instant")?,
-                }
-                write!(
-                    f,
-                    " up to t = {t} s: from there the run continued with time stepping in steps of {step:.1e} s, whose error is not \
-                     controlled; a shorter longest step shows how large it is",
-                    t = ShortNumber(*t)
-                )?;
-                if *times > 1 {
-                    write!(f, "; it did so {times} times")?;
-                }
-                match back_at {
-                    Some(t) => write!(
-                        f,
-                        "; from t = {t} s it located every event again",
-                        t = ShortNumber(*t)
-                    ),
-                    None => Ok(()),
-                }
-            }
-            Self::RedundantConstraint { constraint, with } if with.is_empty() => write!(
-                f,
-                "the constraint `{constraint}` restricts nothing at the start"
-            ),
-            Self::RedundantConstraint { constraint, with } => write!(
-                f,
-                "the constraint `{constraint}` is redundant given {}: the motion is unique, and the multipliers are those \
-                 of least norm",
-                quoted(with)
-            ),
-            Self::StartMoved { name, from, to } => write!(
-                f,
-                "the start was moved onto the constraints: `{name}` from {from} to {to}",
-                from = ShortNumber(*from),
-                to = ShortNumber(*to)
-            ),
-            Self::Stiff { t } => write!(
-                f,
-                "the machine is stiff from t = {t} s: the step size is limited by stability, not by accuracy; the method `radau5` \
-                 takes longer steps",
-                t = ShortNumber(*t)
-            ),
+        self.write_sentence(f)
+    }
+}
+
+sentences! { Warning, written to f:
+    ToleranceRaised { asked, used } =>
+        "a relative tolerance of {asked:e} asks for more digits than the numbers have; {used:e} was used"
+    LargeAngle { name, angle, spacing } =>
+        "`{name}` reached {angle:.3e} rad, where numbers are {spacing:.1e} rad apart: forces that depend on it are no more \
+         accurate; start it within a few turns of 0"
+    EnergyUnexplained { residual, explained, relative } =>
+        "the energies do not balance: the residual is {residual:.1e} J, {relative:.1e} of the energy exchanged, \
+         while tolerance and rounding explain {explained:.1e} J; the motion is less accurate than requested, or \
+         its equations and its energies are inconsistent"
+    ImpactGains { contact, t, gain, impacts } =>
+        "impacts created energy, {impacts} of them, the most {gain:.2e} J at t = {t} s when `{contact}` closed: \
+         Newton's law with friction can do so; `law: stronge` never does"
+    ContactsJammed { t, contacts, instants } => {
+        let more = InstantsOfMany(*instants);
+        write!(
+            f,
+            "the friction of {contacts} admitted no motion with their slips or their restitution at t = {t} s: they stopped, or met without \
+             restitution{more}"
+        )
+    }
+    LoadShared { t, contacts, instants } => {
+        let more = InstantsOfMany(*instants);
+        write!(
+            f,
+            "the motion depends on how {contacts} share their load at t = {t} s: the distribution of equally stiff contacts \
+             could not be computed, and another possible one was taken{more}"
+        )
+    }
+    HandedOver { t, step, crowd, times, back_at } => {
+        match crowd {
+            Some((count, within)) => write!(f, "contacts changed at {count} instants within {within:.1e} s")?,
+            None => write!(f, "contacts did not settle at one instant")?,
+        }
+        write!(
+            f,
+            " up to t = {t} s: from there the run continued with time stepping in steps of {step:.1e} s, whose error is not \
+             controlled; a shorter longest step shows how large it is"
+        )?;
+        if *times > 1 {
+            write!(f, "; it did so {times} times")?;
+        }
+        match back_at.map(ShortNumber) {
+            Some(t) => write!(f, "; from t = {t} s it located every event again"),
+            None => Ok(()),
         }
     }
+    RedundantConstraint { constraint, with } => {
+        if with.is_empty() {
+            return write!(f, "the constraint `{constraint}` restricts nothing at the start");
+        }
+        write!(
+            f,
+            "the constraint `{constraint}` is redundant given {with}: the motion is unique, and the multipliers are those \
+             of least norm"
+        )
+    }
+    StartMoved { name, from, to } =>
+        "the start was moved onto the constraints: `{name}` from {from} to {to}"
+    Stiff { t } =>
+        "the machine is stiff from t = {t} s: the step size is limited by stability, not by accuracy; the method `radau5` \
+         takes longer steps"
 }
 
 /// The number of instants to which a warning applies, as the end of its sentence; nothing for a single one, which the sentence names.

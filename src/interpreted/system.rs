@@ -489,6 +489,18 @@ impl System for InterpretedSystem {
         self.fill(Role::ContactCoefficients, at(t, q, v, &[]), coefficients);
     }
 
+    fn guides(&self) -> usize {
+        self.program.sizes().guides
+    }
+
+    fn guide_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
+        self.fill(Role::GuideMatrix, at(t, q, &[], &[]), matrix);
+    }
+
+    fn guide_loads(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named, loads: &mut [f64]) {
+        self.fill(Role::GuideLoads, at(t, q, v, &u.values), loads);
+    }
+
     fn single_contacts(&self) -> Option<&[bool]> {
         self.gap_arguments.as_deref()
     }

@@ -236,15 +236,17 @@ pub(super) fn check(tableau: &Tableau) -> Result<(), MethodError> {
         .map_or(Ok(()), |spectrum| spectrum_of(tableau, spectrum))
 }
 
+/// Requires something of a field.
+fn field(is_good: bool, field: &'static str, needed: &'static str) -> Result<(), MethodError> {
+    if is_good {
+        Ok(())
+    } else {
+        Err(MethodError::Field { field, needed })
+    }
+}
+
 /// Checks the counts, and the numbers that concern the whole method.
 fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
-    let field = |is_good: bool, field, needed| {
-        if is_good {
-            Ok(())
-        } else {
-            Err(MethodError::Field { field, needed })
-        }
-    };
     let Tableau { stages, .. } = *tableau;
     let rows = tableau.a.len();
     field(stages >= 1, "stages", "at least 1")?;
@@ -303,26 +305,32 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
             "none where the last stage is not at the end of the step",
         )?;
     }
-    if let Some(spectrum) = &tableau.spectrum {
-        let dependent = 2 * spectrum.pairs.len() + 1;
-        let vectors = spectrum.pairs.iter();
-        let mut lengths = vectors.flat_map(|pair| [pair.left.len(), pair.right.len()]);
-        let reals = [spectrum.left_of_real, spectrum.right_of_real];
-        field(
-            stages == dependent + 1
-                && stages <= MOST_IMPLICIT
-                && reals.iter().all(|vector| vector.len() == dependent)
-                && lengths.all(|length| length == dependent),
-            "stages",
-            "in an implicit method one for the beginning and as many as the spectrum has eigenvalues, at most 13",
-        )?;
-        field(
-            tableau.a[stages] == tableau.a[stages - 1],
-            "a",
-            "the row of the last stage repeated, which is that of the new point of an implicit method",
-        )?;
+    match &tableau.spectrum {
+        Some(spectrum) => sizes_of_implicit(tableau, spectrum),
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// Checks the counts of an implicit method.
+fn sizes_of_implicit(tableau: &Tableau, spectrum: &Spectrum) -> Result<(), MethodError> {
+    let stages = tableau.stages;
+    let dependent = 2 * spectrum.pairs.len() + 1;
+    let vectors = spectrum.pairs.iter();
+    let mut lengths = vectors.flat_map(|pair| [pair.left.len(), pair.right.len()]);
+    let reals = [spectrum.left_of_real, spectrum.right_of_real];
+    field(
+        stages == dependent + 1
+            && stages <= MOST_IMPLICIT
+            && reals.iter().all(|vector| vector.len() == dependent)
+            && lengths.all(|length| length == dependent),
+        "stages",
+        "in an implicit method one for the beginning and as many as the spectrum has eigenvalues, at most 13",
+    )?;
+    field(
+        tableau.a[stages] == tableau.a[stages - 1],
+        "a",
+        "the row of the last stage repeated, which is that of the new point of an implicit method",
+    )
 }
 
 /// Checks the lengths of the rows and that their numbers are finite.

@@ -65,43 +65,16 @@ pub fn extremes(
                 return Ok(());
             }
             interpolate_into(values, c);
-            let enough = EXTREMES * (high - low);
-            let rounding = 64.0 * f64::EPSILON * greatest_magnitude(c);
-            let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
-            let last = c[degree].abs().max(c[degree - 1].abs());
-            let beyond = rest + 4.0 * c.len() as f64 * last;
-            let may_be_lower = wanted[0] && c[0] - beyond < low - enough;
-            let may_be_higher = wanted[1] && c[0] + beyond > high + enough;
-            if !may_be_lower && !may_be_higher {
-                continue 'open;
-            }
-            let tail = &c[degree - 2..];
-            if tail.iter().any(|c| c.abs() > (0.01 * enough).max(rounding)) {
-                continue;
-            }
-            let slopes = derivative(c);
-            let mut looks = Vec::new();
-            let noise = ROUNDING * greatest_magnitude(&slopes);
-            isolate(&slopes, ([-1.0, 1.0], noise), &mut looks);
-            for pair in looks.chunks(2) {
-                let &[mut one, mut other] = pair else {
-                    continue;
-                };
-                let rises = evaluate(&slopes, one) > 0.0;
-                while other - one > 1e-14 {
-                    let middle = 0.5 * (one + other);
-                    let is_before = (evaluate(&slopes, middle) > 0.0) == rises;
-                    if is_before && middle > one {
-                        one = middle;
-                    } else if !is_before && middle < other {
-                        other = middle;
-                    } else {
-                        break;
+            match seen(c, [low, high], wanted) {
+                Seen::Nothing => continue 'open,
+                Seen::Roughly => {}
+                Seen::Exactly => {
+                    for x in turning_points(c) {
+                        take(extent, a + (b - a) * 0.5 * (1.0 + x))?;
                     }
+                    continue 'open;
                 }
-                take(extent, a + (b - a) * 0.5 * (1.0 + 0.5 * (one + other)))?;
             }
-            continue 'open;
         }
         if halvings > 0 && looked_at < MOST_INTERVALS {
             let middle = 0.5 * (a + b);
@@ -110,6 +83,60 @@ pub fn extremes(
         }
     }
     Ok(())
+}
+
+/// What a Chebyshev interpolant shows of the extremes of its function.
+enum Seen {
+    /// There is no new extreme between the nodes.
+    Nothing,
+    /// There may be one, and the interpolant is not accurate enough to say where.
+    Roughly,
+    /// There may be one, at a turning point of the interpolant.
+    Exactly,
+}
+
+/// What the interpolant with the coefficients `c` shows beside the least and the greatest value known so far.
+fn seen(c: &[f64], [low, high]: [f64; 2], wanted: [bool; 2]) -> Seen {
+    let degree = c.len() - 1;
+    let enough = EXTREMES * (high - low);
+    let rounding = 64.0 * f64::EPSILON * greatest_magnitude(c);
+    let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
+    let last = c[degree].abs().max(c[degree - 1].abs());
+    let beyond = rest + 4.0 * c.len() as f64 * last;
+    let may_be_lower = wanted[0] && c[0] - beyond < low - enough;
+    let may_be_higher = wanted[1] && c[0] + beyond > high + enough;
+    if !may_be_lower && !may_be_higher {
+        return Seen::Nothing;
+    }
+    let tail = &c[degree - 2..];
+    if tail.iter().any(|c| c.abs() > (0.01 * enough).max(rounding)) {
+        return Seen::Roughly;
+    }
+    Seen::Exactly
+}
+
+/// Where between -1 and 1 the slope of a Chebyshev interpolant changes its sign.
+fn turning_points(c: &[f64]) -> impl Iterator<Item = f64> + use<> {
+    let slopes = derivative(c);
+    let mut looks = Vec::new();
+    let noise = ROUNDING * greatest_magnitude(&slopes);
+    isolate(&slopes, ([-1.0, 1.0], noise), &mut looks);
+    (0..looks.len() / 2).map(move |pair| {
+        let [mut one, mut other] = [looks[2 * pair], looks[2 * pair + 1]];
+        let rises = evaluate(&slopes, one) > 0.0;
+        while other - one > 1e-14 {
+            let middle = 0.5 * (one + other);
+            let is_before = (evaluate(&slopes, middle) > 0.0) == rises;
+            if is_before && middle > one {
+                one = middle;
+            } else if !is_before && middle < other {
+                other = middle;
+            } else {
+                break;
+            }
+        }
+        0.5 * (one + other)
+    })
 }
 
 #[cfg(test)]

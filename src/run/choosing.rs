@@ -6,7 +6,8 @@
 //! * At the start the costs decide: of a step by Taylor series, and of the steps of `dop853` that cover it. Their number is known within a factor
 //!   of [`SPREAD`]; if that does not decide, it is measured at the start.
 //! * If the series is derived on demand, a run begins with `dop853`. Once its steps so far and those to come are worth the derivation
-//!   ([`INVESTED`], [`WORTH`]), the series is derived and the same is decided at the state that the run has reached.
+//!   ([`INVESTED`], [`WORTH`]), the series is derived and the same is decided at the state that the run has reached. Of a derivation that many runs
+//!   share, each counts its part. If a single step is worth that, the run decides at its start.
 //! * If stability limits explicit steps, the run changes to a Radau method. The test of DOP853 detects this, and in series the fastest
 //!   rate of the machine does.
 //! * It changes from a Radau method back to `dop853` if its steps have cost more than explicit ones would: evaluations, and the solution of
@@ -126,8 +127,10 @@ pub(super) struct Choosing {
     /// The number of steps, of the whole run, after which the fastest rate is found next while it goes by series, and the number until the one after that.
     pub next_look: usize,
     between_looks: usize,
-    /// The evaluations that take as long as the derivation of the series, until it is derived; `None` if it never is.
+    /// The evaluations that take as long as the derivation of the series, or as this run's part of it, until it is derived; `None` if it never is.
     derivation: Option<f64>,
+    /// Whether other runs share the derivation.
+    is_shared: bool,
 }
 
 /// The cost of explicit steps before a change to an implicit method.
@@ -157,6 +160,7 @@ impl Choosing {
             next_look: STEPS_BETWEEN_LOOKS[0],
             between_looks: STEPS_BETWEEN_LOOKS[0],
             derivation: None,
+            is_shared: false,
         }
     }
 
@@ -170,14 +174,15 @@ impl Choosing {
         self.is_automatic
     }
 
-    /// For a run that begins with a method of its own choice.
-    pub fn begun(t: f64, beginning: Beginning, may_change: bool) -> Self {
+    /// For a run that begins with a method of its own choice, one of so many that share the derivation of the series.
+    pub fn begun(t: f64, beginning: Beginning, may_change: bool, one_of: u64) -> Self {
         let Beginning { method, reason, .. } = beginning;
         Self {
             is_automatic: true,
             is_free: may_change,
             choices: [MethodChoice { t, method, reason }].into(),
             derivation: beginning.derivation,
+            is_shared: one_of > 1,
             ..Self::none()
         }
     }
@@ -210,11 +215,16 @@ pub(super) struct Beginning {
     pub reason: MethodReason,
     /// The evaluations that the choice took.
     pub evaluations: usize,
-    /// The evaluations that take as long as the derivation of the series, if that is done on demand.
+    /// The evaluations that take as long as the derivation of the series, or as this run's part of it, if that is done on demand.
     pub derivation: Option<f64>,
 }
 
 impl Beginning {
+    /// With `dop853`, as runs do where nothing speaks for another method.
+    pub fn explicit() -> Self {
+        Self::with(Method::DOP853, MethodReason::Explicit)
+    }
+
     /// A choice without measurements.
     pub fn with(method: &'static Method, reason: MethodReason) -> Self {
         Self {
@@ -246,23 +256,25 @@ impl Ahead {
     }
 }
 
-/// The method to begin with at this state.
+/// The evaluations that take as long as the part of each of so many runs in the derivation of the series, if that is done on demand.
+pub(super) fn derivation_of_each<S: System>(system: &S, one_of: u64) -> Option<f64> {
+    let derivation = system.series_derivation()?;
+    Some(derivation / one_of.max(1) as f64)
+}
+
+/// The method to begin with at this state, for one of so many runs that share the derivation of the series.
 pub(super) fn first<S: System>(
     system: &S,
     at: (f64, &S::Vector, &S::Vector),
     tolerance: &Tolerance<S::Vector>,
-    (ahead, inputs_stay): (Ahead, bool),
+    (ahead, one_of): (Ahead, u64),
 ) -> Beginning {
-    let explicit = Beginning::with(Method::DOP853, MethodReason::Explicit);
-    if !inputs_stay {
-        return explicit;
-    }
-    match system.series_derivation() {
-        None => by_costs(system, at, tolerance, ahead).unwrap_or(explicit),
-        derivation => Beginning {
-            derivation,
-            ..explicit
+    match derivation_of_each(system, one_of) {
+        Some(derivation) if WORTH * derivation > EVALUATIONS => Beginning {
+            derivation: Some(derivation),
+            ..Beginning::explicit()
         },
+        _ => by_costs(system, at, tolerance, ahead).unwrap_or(Beginning::explicit()),
     }
 }
 
@@ -335,10 +347,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.stepper.test_stiffness_every(STEPS_BETWEEN_TESTS);
         self.choosing.begun = self.tried();
         self.choosing.marks = [self.choosing.begun; 2];
+        self.begin_series()
+    }
+
+    /// Leaves a series at once if stability limits it from here on. Does nothing where the run does not go by series.
+    fn begin_series(&mut self) -> Result<(), Error> {
         let left = (self.until - self.stepper.t()).abs();
         let seems_short = |length: f64| SHORT_RUN as f64 * length >= left;
         if self.stepper.length_in_series().is_some_and(seems_short) {
-            self.choosing.next_look = SHORT_RUN;
+            self.choosing.next_look = self.stepper.work().steps + SHORT_RUN;
             return Ok(());
         }
         match self.rate_beyond_series() {
@@ -386,8 +403,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         };
         let ((since, before), (t, tried)) = (self.choosing.begun, self.tried());
         let left = self.until - t;
-        // Steps that stability limits say nothing of accuracy.
-        let is_limited_by_accuracy = self.stepper.is_not_stiff();
+        // Steps that stability limits say nothing of accuracy. Where runs share the derivation, it may be worth fewer steps than a test for stiffness takes.
+        let is_limited_by_accuracy = match self.choosing.is_shared {
+            true => self.stepper.shows_no_stiffness(),
+            false => self.stepper.is_not_stiff(),
+        };
         let so_far = EVALUATIONS * (tried - before) as f64;
         let to_come = so_far * (left / (t - since)).abs();
         if !is_limited_by_accuracy || so_far < INVESTED * derivation || to_come < WORTH * derivation
@@ -412,10 +432,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if (self.change_method(beginning.method, beginning.reason)).is_err() {
             return self.change_method(Method::DOP853, MethodReason::NoSeries);
         }
-        match self.rate_beyond_series() {
-            Some(rate) => self.change_method(Method::DOP853, MethodReason::Stiff { rate }),
-            None => Ok(()),
-        }
+        self.begin_series()
     }
 
     /// Changes to an explicit method if a step by series has no value, or none that is long enough; returns whether it does.

@@ -1,7 +1,7 @@
-//! When contacts change within a step, and how: gaps that close, forces that vanish, slips that stop or begin.
+//! When and how contacts change within a step: gaps that close, forces that vanish, slips that stop or begin.
 //!
-//! Each step is looked at several times. Only where a look shows that something may have changed since the one before it, the instant is searched
-//! for on dense output.
+//! Each step is sampled several times. The instant is searched for on the dense output only where a sample shows that something may have changed since the
+//! previous one.
 
 use std::boxed::Box;
 use std::vec;
@@ -541,6 +541,7 @@ where
         }
         let cause = match (mode, kind) {
             (_, 3) => Cause::Leaves(k),
+            (_, 0) if self.touching.is_guide(k) => Cause::Switches(k),
             (_, 0) => Cause::Lifts(k),
             (_, 2) => Cause::Turns(k),
             (Mode::Slides(_) | Mode::SlidesAlong(_), _) => Cause::Stops(k),

@@ -1,4 +1,4 @@
-//! Unilateral contacts in a run: lets them meet where they change, and tells what happened.
+//! Unilateral contacts in a run: changes their states where they meet, and reports the changes.
 
 use std::string::String;
 use std::vec;
@@ -321,6 +321,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 (Mode::Open, _) | (_, Mode::Open) if self.has_carrier(contact) => continue,
                 // What is done along both tangents is told of the contact.
                 _ if self.is_across(contact) => continue,
+                // A guide is never open.
+                (Mode::Open, _) if self.is_guide(contact) => continue,
                 // What is closed before the run does not close; what is hit at its start does.
                 (Mode::Open, _) if at_start && !hit.contains(&contact) => continue,
                 (Mode::Open, _) => (Closes, 0.0),
@@ -338,6 +340,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 _ => [direction, 0.0],
             };
             reported.push((contact, kind, directions, None));
+        }
+        for &guide in &changes_at_instant.switched {
+            reported.push((guide, ContactEventKind::Switches, [0.0; 2], None));
         }
         for &(contact, is_loaded) in &changes_at_instant.turned {
             let (before, after) = (
@@ -436,6 +441,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     pub(super) fn has_carrier(&self, contact: usize) -> bool {
         let touching = self.stepper.touching().as_ref();
         touching.is_some_and(|touching| touching.carrier(contact).is_some())
+    }
+
+    /// Whether a contact is a guide.
+    fn is_guide(&self, contact: usize) -> bool {
+        let touching = self.stepper.touching().as_ref();
+        touching.is_some_and(|touching| touching.is_guide(contact))
     }
 
     /// Whether it is the second tangent of a contact.

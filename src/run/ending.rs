@@ -1,4 +1,4 @@
-//! The end of a run: at an event, and what is made of its records.
+//! The end of a run: at an event or at its last time, and the result that is made of its records.
 
 use std::boxed::Box;
 use std::vec::Vec;

@@ -11,6 +11,7 @@
 use super::Run;
 use super::choosing::{
     Ahead, Beginning, EVALUATIONS, INVESTED, MEASURED, STEPS_BETWEEN_LOOKS, WORTH, by_costs,
+    derivation_of_each,
 };
 use crate::balance::Quadratures;
 use crate::contact::UnilateralState;
@@ -57,11 +58,12 @@ impl Flights {
 
 impl Beginning {
     /// The method that a run of a machine with unilateral contacts begins with.
-    pub fn with_contacts<S: System>(system: &S, inputs_stay: bool) -> Self {
-        let derivation = || system.series_derivation().unwrap_or(0.0);
+    ///
+    /// It is one of so many that share the derivation of the series.
+    pub fn with_contacts<S: System>(system: &S, one_of: u64) -> Self {
         Self {
-            derivation: inputs_stay.then(derivation),
-            ..Self::with(Method::DOP853, MethodReason::Explicit)
+            derivation: Some(derivation_of_each(system, one_of).unwrap_or(0.0)),
+            ..Self::explicit()
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Why a run stops: errors of steps in the names of the description, and what has caused them.
+//! Why a run stops: errors of steps, with the names of the spec and their causes.
 
 use std::string::String;
 use std::vec::Vec;

@@ -1,4 +1,4 @@
-//! What a run records and shows of each step: samples, energies, the step itself.
+//! The records of a run at each step: samples, energies, the step itself.
 
 use super::{LastInterpolant, Model, Run, VectorOf};
 use crate::at::At;

@@ -89,7 +89,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
     /// Whether stiffness was tested since the method began, and nothing speaks for it now.
     pub(crate) fn is_not_stiff(&self) -> bool {
-        self.stiffness.is_tested && self.stiffness.signs == 0
+        self.stiffness.is_tested && self.shows_no_stiffness()
+    }
+
+    /// Whether nothing speaks for stiffness now, tested or not.
+    pub(crate) fn shows_no_stiffness(&self) -> bool {
+        self.stiffness.signs == 0
     }
 
     /// The tolerance of steps.

@@ -50,6 +50,8 @@ pub(crate) enum Cause {
     Breaks(usize, [f64; 2]),
     /// A compliant contact begins to press.
     Presses(usize),
+    /// The reaction of a guide has changed its sign: the guide presses to its other side.
+    Switches(usize),
     /// A layer turns from loading to unloading, or comes back to its greatest depth.
     Turns(usize),
 }
@@ -69,6 +71,8 @@ pub(crate) struct ContactChanges {
     pub lost_at_end: f64,
     /// Layers whose loading changed direction: whether they are loaded now.
     pub turned: Vec<(usize, bool)>,
+    /// Guides that slide on and press to their other sides.
+    pub switched: Vec<usize>,
     pub told: Told,
     /// The length of the flight that follows, if there is one and its length is known.
     flight: Option<f64>,
@@ -157,6 +161,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return Ok(changes_at_instant);
         };
         changes_at_instant.before = touching.modes().to_vec();
+        let sides_before = touching.sides().to_vec();
         let stored_before = stored_by_each(model.system.get(), &touching, now);
         let loaded_before: Vec<bool> = touching.loaded().collect();
         model.set_inputs(t, &now.q, &now.v);
@@ -235,6 +240,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         };
         model.constraints = project_onto_closed_contacts(model.system.get(), &touching, now)?;
         changes_at_instant.after = touching.modes().to_vec();
+        changes_at_instant.switched = touching.switched(&changes_at_instant.before, &sides_before);
         model.touching = Some(touching);
 
         if !changes_at_instant.ended.is_empty() {
@@ -467,7 +473,11 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 Some((k, Mode::SlidesAlong(direction)))
             }
             Cause::Breaks(k, [along, _]) => Some((k, Mode::Slides(along.signum()))),
-            Cause::Unspecified | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,
+            Cause::Unspecified
+            | Cause::Stops(_)
+            | Cause::Presses(_)
+            | Cause::Switches(_)
+            | Cause::Turns(_) => None,
         };
         let system = self.system.get();
         let at = At {
@@ -493,10 +503,21 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 settled = touching.settled(system, at, closed, resting, &let_go)?;
             }
         }
+        touching.take_sides(
+            &settled,
+            match cause {
+                // Impacts change reactions by more than what changes their signs.
+                Cause::Switches(k) if changes.impacts.is_empty() => Some(k),
+                _ => None,
+            },
+        );
         let mut modes = settled.modes;
         (changes.told.shared_otherwise).extend(settled.shared_otherwise);
-        if let Cause::Lifts(_) = cause {
-            // Contacts that lift at the same instant, by symmetry, would otherwise close each other again and again.
+        if matches!(cause, Cause::Lifts(_)) && changes.impacts.is_empty() {
+            touching.keep_slipping(&mut modes, (&changes.before, &settled.at_limit));
+        }
+        if let Cause::Lifts(_) | Cause::Breaks(..) = cause {
+            // Contacts that lift at the same instant, by symmetry or because what held them slips, would otherwise close each other again and again.
             let was_open = |k: usize| changes.before[k] == Mode::Open && !touching.is_compliant(k);
             modes = touching.without_unpressed(system, at, modes, was_open)?;
         }

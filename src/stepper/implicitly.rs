@@ -20,7 +20,6 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             method,
             tolerance,
             model,
-            quadratures,
             before,
             now,
             k,
@@ -49,7 +48,6 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return Ok(f64::INFINITY);
         }
 
-        let rows = &method.scheme.rows;
         let stages = method.tableau.stages;
         attempt::arrive::<f64, _, _>(method, (before, h), k, now, (self.end, &[last]));
         let again = *is_retry || work.steps == 0;
@@ -71,15 +69,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         implicit.smooth_start(&task, k);
 
-        if quadratures.integrals().is_some() {
-            for i in 1..stages {
-                let c = method.tableau.c[i];
-                let t = before.t + (before.t_low + c * h);
-                stage_state::<f64, _>((&rows[i], c * h, h), [&before.q, &before.v], k, [q, v]);
-                model.set_inputs(t, q, v);
-                model.take_rates(quadratures, i, (t, q, v, &k[i]));
-            }
-        }
+        self.take_powers_of_stages(h);
+        let Self {
+            model,
+            quadratures,
+            now,
+            k,
+            ..
+        } = self;
         // The last stage is the end. Its acceleration is the slope of the polynomial there, since an
         // evaluation would amplify the round-off of the state by the stiffness of the machine.
         let (known, end) = k.split_at_mut(stages);
@@ -95,5 +92,29 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         } else {
             error
         })
+    }
+
+    /// Evaluates the powers at the stages of a step of length `h`, if they are integrated.
+    fn take_powers_of_stages(&mut self, h: f64) {
+        let Self {
+            method,
+            model,
+            quadratures,
+            before,
+            k,
+            stage: (q, v),
+            ..
+        } = self;
+        if quadratures.integrals().is_none() {
+            return;
+        }
+        for i in 1..method.tableau.stages {
+            let c = method.tableau.c[i];
+            let t = before.t + (before.t_low + c * h);
+            let row = &method.scheme.rows[i];
+            stage_state::<f64, _>((row, c * h, h), [&before.q, &before.v], k, [q, v]);
+            model.set_inputs(t, q, v);
+            model.take_rates(quadratures, i, (t, q, v, &k[i]));
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Bounds on the motion within a step by series.
 
-use super::{Block, in_registers};
+use super::motion::{Block, in_registers};
+use crate::Vector;
 use crate::scalar::{Kernel, Scalar};
-use crate::{Lanes, Number, Vector};
 
 /// The lowest and the highest coordinates and rates within a step.
 #[derive(Clone, Debug)]

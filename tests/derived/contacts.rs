@@ -492,3 +492,55 @@ fn an_approximated_machine_bounces() {
     let balance = run.energy_balance().expect("it was kept");
     assert!(balance.residual().abs() < 1e-9, "{balance:?}");
 }
+
+lagrangian::machine! {
+    /// A block on a rail that is braked, hits an oblique wall, and is braked again.
+    machine Carriage in plane {
+        parameters { m: kg = 2, L: m = 1, mu: 1 = 0.2, e: 1 = 0.7, g: m/s^2 = 9.81, v0: m/s = 3, slope: rad = 2 }
+        coordinates { x: m, der(x): m/s = v0 }
+        frames { seat = ground.shift(x, 0), wall = ground.shift(L, 0).turn(slope) }
+        bodies { block { mass: m, frame: seat } }
+        gravity (0, -g);
+        sliding { rail { body: block, on: ground, direction: (1, 0), friction: mu } }
+        contacts { stop { point: (0, 0), on: block, along: wall, restitution: e } }
+    }
+}
+
+/// `v₁² = v₀² − 2 μ g L`, then e v₁, until that is used up after e v₁/(μ g). The rail takes the normal impulse −Λ cos β of the wall. Every method reproduces this.
+#[test]
+fn a_guide_of_a_macro_stands_beside_a_contact() {
+    let machine = Carriage::default();
+    let system = machine.prepare();
+    assert_eq!((system.contacts().len(), system.guides()), (0, 1));
+    let (braking, e) = (0.2 * 9.81, 0.7_f64);
+    let v0 = 3.0_f64;
+    let v1 = (v0 * v0 - 2.0 * braking).sqrt();
+    let way = (e * v1).powi(2) / (2.0 * braking);
+    let impulse = 2.0 * (1.0 + e) * v1 / (2.0_f64.sin() + 0.2 * 2.0_f64.cos());
+    for method in &METHODS {
+        let run = Simulation::new(&machine)
+            .method(method)
+            .tolerance(1e-10)
+            .energy_balance(true)
+            .until(3.0)
+            .run(machine.start())
+            .expect("it runs");
+        let name = method.tableau.name;
+        let x = run.end().q.x;
+        assert!((x - 1.0 + way).abs() < 1e-6, "{name}: {x}");
+        let kinds: Vec<_> = run
+            .contact_events()
+            .iter()
+            .map(|event| event.kind)
+            .collect();
+        use ContactEventKind::{Impact, Reverses, Sticks};
+        assert_eq!(kinds, [Impact, Impact, Reverses, Sticks], "{name}");
+        let rail = run.contact_events()[1].impact.expect("an impact").impulse[0];
+        assert!(
+            (rail + impulse * 2.0_f64.cos()).abs() < 1e-6,
+            "{name}: {rail}"
+        );
+        let balance = run.energy_balance().expect("it was kept");
+        assert!(balance.residual().abs() < 1e-6, "{name}: {balance:?}");
+    }
+}

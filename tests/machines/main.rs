@@ -7,6 +7,7 @@ mod emitted_series;
 mod flights;
 mod formulations;
 mod friction;
+mod guides_and_contacts;
 mod known_runs;
 mod library;
 mod long_runs;

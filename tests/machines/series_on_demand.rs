@@ -174,6 +174,76 @@ fn what_ran_before_the_engine_and_what_is_recorded_change_no_bit() {
     );
 }
 
+/// Of the derivation, each of many runs counts its part: the more runs, the earlier they go on by series, from their start on if a single step is worth
+/// that.
+#[test]
+fn the_more_runs_share_a_derivation_the_earlier_they_go_by_series() {
+    let until = 5.0;
+    let made = |machine: &InterpretedMachine, runs: u64| {
+        let run = automatic(machine, until).one_of(runs);
+        run.run(machine.start()).unwrap()
+    };
+    let (machine, count) = counted("crusher9");
+    let alone = made(&machine, 1);
+    assert_eq!(methods(&alone), [(0.0, "dop853")]);
+    assert_eq!(made(&machine, 0).end(), alone.end());
+    assert_eq!(count.load(Ordering::Relaxed), 0);
+    let mut before = until;
+    for runs in [16, 128] {
+        let shared = made(&machine, runs);
+        let [_, (since, "taylor")] = methods(&shared)[..] else {
+            panic!("{runs}: {:?}", methods(&shared));
+        };
+        assert!(since > 0.0 && since < before, "{runs}: {since}");
+        // That the series is known by now changes nothing.
+        let again = made(&machine, runs);
+        assert_eq!(
+            (again.end(), methods(&again)),
+            (shared.end(), methods(&shared))
+        );
+        before = since;
+    }
+    // The derivation takes as long as some hundreds to ten thousand evaluations, and a step as long as twelve.
+    let many = made(&machine, 100_000);
+    assert_eq!(methods(&many), [(0.0, "taylor")]);
+    let given = automatic(&machine, until).method(&TAYLOR);
+    let given = given.run(machine.start()).unwrap();
+    assert_eq!(
+        (many.end(), many.statistics().steps),
+        (given.end(), given.statistics().steps)
+    );
+    // The same as with a series that is there from the start.
+    assert_eq!(count.load(Ordering::Relaxed), 1);
+    assert!(many.statistics().evaluations < alone.statistics().evaluations / 4);
+}
+
+/// A slow oscillation, x = cos t, and a mass that creeps back in a viscous oil, at 2e4/s: series are left where stability limits their steps, however little of
+/// their derivation the run counts.
+#[test]
+fn a_stiff_run_that_shares_a_derivation_leaves_series() {
+    let text = "machine Damped in plane {
+        parameters { k: N/m = 1, c: N*s/m = 2e4 }
+        coordinates { x: m = 1, y: m = 1 }
+        bodies { a { mass: 1, at: (x, 0) }, b { mass: 1, at: (0, y) } }
+        springs { slow { stiffness: k, stretch: x }, fast { stiffness: 1e4*k, stretch: y } }
+        dissipations { oil: 1/2*c*der(y)^2 }
+    }";
+    let machine = InterpretedMachine::from_text(text).build().unwrap();
+    for runs in [30, 1_000_000] {
+        let run = automatic(&machine, 30.0).one_of(runs);
+        let run = run.run(machine.start()).unwrap();
+        assert_eq!(
+            methods(&run).last().map(|(_, name)| *name),
+            Some("radau13"),
+            "{:?}",
+            methods(&run)
+        );
+        // A tolerance of 1e-12 in each of some hundred steps.
+        assert!((run.end().q.values[0] - 30.0_f64.cos()).abs() < 1e-9);
+        assert!(run.statistics().steps < 2000);
+    }
+}
+
 #[test]
 fn machines_without_series_run_as_before() {
     // A rolling coin has constraints of velocities, so that nothing is even tried.
@@ -192,6 +262,8 @@ fn machines_without_series_run_as_before() {
         let run = automatic(&machine, 200.0).run(start.clone()).unwrap();
         assert_eq!(methods(&run), [(0.0, "dop853")], "{name}");
         assert!(run.statistics().steps > 4000, "{name}");
+        let many = automatic(&machine, 200.0).one_of(1_000_000);
+        assert_eq!(many.run(start.clone()).unwrap().end(), run.end(), "{name}");
         assert_eq!(
             count.load(Ordering::Relaxed),
             usize::from(may_have_one),

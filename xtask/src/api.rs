@@ -5,7 +5,9 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::iter::Peekable;
 use std::path::{Path, PathBuf};
+use std::vec::IntoIter;
 
 use proc_macro2::{Delimiter, Spacing, TokenStream, TokenTree};
 
@@ -152,6 +154,9 @@ impl Item {
     }
 }
 
+/// The tokens of a file that are still to be read.
+type Rest = Peekable<IntoIter<TokenTree>>;
+
 /// The items in a token stream.
 fn items_of(tokens: Vec<TokenTree>) -> Vec<Item> {
     let mut items = Vec::new();
@@ -167,8 +172,38 @@ fn items_of(tokens: Vec<TokenTree>) -> Vec<Item> {
             head: Vec::new(),
             body: None,
         };
+        let is_left_out = item.take_attributes(&mut rest);
+        item.take_visibility(&mut rest);
+        item.take_head(&mut rest);
+        if item.kind == "impl" {
+            item.name = type_of(&item.head);
+        }
+        if !item.kind.is_empty() && !is_left_out {
+            items.push(item);
+        }
+    }
+    items
+}
+
+/// The words that begin an item, besides `const`, which may also begin a function.
+const KINDS: [&str; 11] = [
+    "struct",
+    "enum",
+    "union",
+    "trait",
+    "impl",
+    "mod",
+    "use",
+    "type",
+    "static",
+    "macro_rules",
+    "fn",
+];
+
+impl Item {
+    /// Takes the attributes, of the item or of the file; returns whether the item belongs to tests only.
+    fn take_attributes(&mut self, rest: &mut Rest) -> bool {
         let mut is_left_out = false;
-        // Attributes, of the item or of the file.
         while let Some(TokenTree::Punct(mark)) = rest.peek()
             && mark.as_char() == '#'
         {
@@ -183,91 +218,78 @@ fn items_of(tokens: Vec<TokenTree>) -> Vec<Item> {
                 is_left_out |= ["cfg(test", "cfg(doctest", "cfg(all(doctest"]
                     .iter()
                     .any(|start| text.starts_with(start));
-                item.is_hidden |= text == "doc(hidden)";
+                self.is_hidden |= text == "doc(hidden)";
                 if text.starts_with("cfg(") || text == "non_exhaustive" {
-                    item.conditions += &format!("#[{text}] ");
+                    self.conditions += &format!("#[{text}] ");
                 }
                 if let Some(list) = text.strip_prefix("derive(") {
                     let list = list.trim_end_matches(')').split(", ");
-                    item.derived.extend(list.map(str::to_owned));
+                    self.derived.extend(list.map(str::to_owned));
                 }
             }
         }
-        if matches!(rest.peek(), Some(TokenTree::Ident(word)) if *word == "pub") {
-            rest.next();
-            item.is_public = true;
-            if let Some(TokenTree::Group(group)) = rest.peek()
-                && group.delimiter() == Delimiter::Parenthesis
-            {
-                rest.next();
-                item.is_public = false;
-            }
+        is_left_out
+    }
+
+    /// Takes `pub`. What is public only within a crate or a module is not.
+    fn take_visibility(&mut self, rest: &mut Rest) {
+        if !matches!(rest.peek(), Some(TokenTree::Ident(word)) if *word == "pub") {
+            return;
         }
-        // Up to its body or its semicolon. The value of a constant is not part of the interface.
+        rest.next();
+        self.is_public = true;
+        if let Some(TokenTree::Group(group)) = rest.peek()
+            && group.delimiter() == Delimiter::Parenthesis
+        {
+            rest.next();
+            self.is_public = false;
+        }
+    }
+
+    /// Takes everything up to the body or the semicolon, and the body. The value of a constant is not part of the interface.
+    fn take_head(&mut self, rest: &mut Rest) {
         let mut is_value = false;
-        for token in rest.by_ref() {
+        for token in rest {
             match &token {
-                TokenTree::Ident(word) if item.kind.is_empty() => {
+                TokenTree::Ident(word) if self.kind.is_empty() => {
                     let word = plain(word);
-                    let is_kind = [
-                        "struct",
-                        "enum",
-                        "union",
-                        "trait",
-                        "impl",
-                        "mod",
-                        "use",
-                        "type",
-                        "static",
-                        "macro_rules",
-                        "fn",
-                    ];
-                    if is_kind.contains(&word.as_str()) {
-                        item.kind = word;
-                    } else if word == "const" {
-                        item.kind = "const".to_owned();
+                    if word == "const" || KINDS.contains(&word.as_str()) {
+                        self.kind = word;
                     }
                 }
                 // `const fn`
-                TokenTree::Ident(word) if item.kind == "const" && *word == "fn" => {
-                    item.kind = "fn".to_owned();
+                TokenTree::Ident(word) if self.kind == "const" && *word == "fn" => {
+                    self.kind = "fn".to_owned();
                 }
-                TokenTree::Ident(word) if item.name.is_empty() && item.kind != "impl" => {
-                    item.name = plain(word);
+                TokenTree::Ident(word) if self.name.is_empty() && self.kind != "impl" => {
+                    self.name = plain(word);
                 }
                 TokenTree::Punct(mark) if mark.as_char() == '=' => {
-                    is_value |= matches!(item.kind.as_str(), "const" | "static");
+                    is_value |= matches!(self.kind.as_str(), "const" | "static");
                 }
                 TokenTree::Punct(mark) if mark.as_char() == ';' => break,
                 TokenTree::Group(group)
                     if group.delimiter() == Delimiter::Brace
-                        && !matches!(item.kind.as_str(), "use" | "const" | "static") =>
+                        && !matches!(self.kind.as_str(), "use" | "const" | "static") =>
                 {
                     let body = group.stream().into_iter().collect();
-                    item.body = Some((Delimiter::Brace, body));
+                    self.body = Some((Delimiter::Brace, body));
                     break;
                 }
                 TokenTree::Group(group)
-                    if group.delimiter() == Delimiter::Parenthesis && item.kind == "struct" =>
+                    if group.delimiter() == Delimiter::Parenthesis && self.kind == "struct" =>
                 {
                     let body = group.stream().into_iter().collect();
-                    item.body = Some((Delimiter::Parenthesis, body));
+                    self.body = Some((Delimiter::Parenthesis, body));
                     continue;
                 }
                 _ => {}
             }
             if !is_value {
-                item.head.push(token);
+                self.head.push(token);
             }
         }
-        if item.kind == "impl" {
-            item.name = type_of(&item.head);
-        }
-        if !item.kind.is_empty() && !is_left_out {
-            items.push(item);
-        }
     }
-    items
 }
 
 /// The name of the type that is implemented for.

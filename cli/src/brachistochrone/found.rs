@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use lagrangian_brachistochrone::direct::{FastestMotion, Sought, Terrain, Trial};
 use lagrangian_brachistochrone::{Brachistochrone, Lapse, Moment, Problem};
+use lagrangian_units::rate_unit;
 use serde_json::{Map, Value, json};
 
 use super::tried;
@@ -360,11 +361,7 @@ impl<'d> FastestResult<'d> {
             ));
         }
         for (i, (name, unit)) in named() {
-            let unit = if unit == "1" {
-                "1/s".into()
-            } else {
-                format!("{unit}/s")
-            };
+            let unit = rate_unit(name, unit);
             columns.push(column(
                 format!("der({name})"),
                 unit,
@@ -424,7 +421,29 @@ impl<'d> FastestResult<'d> {
             output::line(format_args!("{machine}: {time} s is the least time"));
         }
         output::line(format_args!("  found in {:.1} µs", 1e6 * self.seconds));
-        if let Motion::Direct(direct) = motion {
+        self.print_search();
+        self.print_ends();
+        let constants: Vec<String> = self.constants().iter().map(|c| shortest(*c)).collect();
+        let quantity = match motion {
+            Motion::Closed(_) => "constants of Euler's equations",
+            Motion::Direct(_) => "multipliers of the coordinates at the start",
+        };
+        output::line(format_args!("  {quantity}: {}", constants.join(", ")));
+        for (i, guide) in self.guides.iter().enumerate() {
+            let (reaction, time) = self.least_reaction(i);
+            output::line(format_args!(
+                "  least normal reaction of {guide}: {reaction:.6} N, at t = {time:.6} s"
+            ));
+        }
+        self.print_checks();
+        for warning in self.warnings() {
+            output::line(format_args!("  warning: {warning}"));
+        }
+    }
+
+    /// Prints why the direct method was used, and how it searched.
+    fn print_search(&self) {
+        if let Motion::Direct(direct) = &self.motion {
             let direct = direct.sought();
             output::line(format_args!(
                 "  by the direct method, since {}",
@@ -437,6 +456,10 @@ impl<'d> FastestResult<'d> {
             ));
             output::line(format_args!("  {}", alternatives(direct)));
         }
+    }
+
+    /// Prints coordinates and rates where the motion begins and where it ends.
+    fn print_ends(&self) {
         let width = self
             .names
             .iter()
@@ -463,18 +486,11 @@ impl<'d> FastestResult<'d> {
                 shortest(angles[angles.len() - 1])
             ));
         }
-        let constants: Vec<String> = self.constants().iter().map(|c| shortest(*c)).collect();
-        let quantity = match motion {
-            Motion::Closed(_) => "constants of Euler's equations",
-            Motion::Direct(_) => "multipliers of the coordinates at the start",
-        };
-        output::line(format_args!("  {quantity}: {}", constants.join(", ")));
-        for (i, guide) in self.guides.iter().enumerate() {
-            let (reaction, time) = self.least_reaction(i);
-            output::line(format_args!(
-                "  least normal reaction of {guide}: {reaction:.6} N, at t = {time:.6} s"
-            ));
-        }
+    }
+
+    /// Prints what bounds the motion: the power of friction and of the control forces, how far a simulation misses the end, and the turns that
+    /// would be slower.
+    fn print_checks(&self) {
         let friction = self.moments.iter().map(|moment| moment.friction_power);
         if !self.guides.is_empty() {
             output::line(format_args!(
@@ -499,9 +515,6 @@ impl<'d> FastestResult<'d> {
                 less.to_degrees(),
                 more.to_degrees()
             ));
-        }
-        for warning in self.warnings() {
-            output::line(format_args!("  warning: {warning}"));
         }
     }
 }

@@ -45,7 +45,7 @@ pub struct Fmu {
     /// Which version of the interface: 3 or 2.
     #[arg(long, value_name = "VERSION", default_value = "3", value_parser = clap::value_parser!(u8).range(2..=3))]
     pub fmi: u8,
-    /// The kind of importer: one that integrates itself (`me`), one that lets the unit integrate (`cs`), or both.
+    /// The interfaces of the unit: model exchange (`me`), co-simulation (`cs`), or both.
     #[arg(long, value_name = "KIND,…", value_enum, value_delimiter = ',', default_values_t = [UnitKind::ModelExchange, UnitKind::CoSimulation])]
     pub kind: Vec<UnitKind>,
     /// The variables that are outputs, as in `--outputs theta1,energy.kinetic`, in place of the outputs of the spec or the coordinates.
@@ -134,10 +134,10 @@ pub(super) fn names(text: &str) -> Result<Names, String> {
 /// Who integrates a functional mock-up unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum UnitKind {
-    /// The importer.
+    /// Model exchange: the importer integrates.
     #[value(name = "me")]
     ModelExchange,
-    /// The unit.
+    /// Co-simulation: the unit integrates.
     #[value(name = "cs")]
     CoSimulation,
 }

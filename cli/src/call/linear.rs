@@ -125,6 +125,29 @@ pub struct Vary {
     pub count: usize,
 }
 
+impl Vary {
+    /// The values in a unit, at equal intervals from the first to the last.
+    ///
+    /// # Errors
+    /// If an end is invalid, or both are the same.
+    pub fn values(&self, option: &str, unit: &str) -> Result<Vec<f64>, String> {
+        let [from, to] = &self.ends;
+        let (from, to) = (from.value(option, unit)?, to.value(option, unit)?);
+        if from == to {
+            return Err(format!(
+                "{option} {}: the range from {from} to {to} is empty",
+                self.name
+            ));
+        }
+        let last = self.count - 1;
+        let value = |k: usize| match k {
+            _ if k == last => to,
+            _ => from + (to - from) * (k as f64 / last as f64),
+        };
+        Ok((0..=last).map(value).collect())
+    }
+}
+
 /// The most values of a continuation: more than a drawing can resolve.
 const MOST_VALUES: f64 = 1e5;
 

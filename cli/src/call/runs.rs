@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use lagrangian::Crossing;
 
 use super::arguments::{Arguments, SetName, names_in};
 use super::{Assignment, Runs, assignment, number, positive, tolerance};
@@ -193,4 +194,15 @@ pub enum Direction {
     Down,
     /// In both directions.
     Both,
+}
+
+impl Direction {
+    /// The same of the zero of a function.
+    pub fn crossing(self) -> Crossing {
+        match self {
+            Direction::Up => Crossing::Rising,
+            Direction::Down => Crossing::Falling,
+            Direction::Both => Crossing::Any,
+        }
+    }
 }

@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::arguments::{Arguments, SetName, names_in, with_spec};
 use super::{
-    Assignment, Keep, Precision, Spec, Start, assignment, interval, number, steps, wide_tolerance,
+    Assignment, Keep, Precision, Spec, Start, assignment, count, interval, number, steps,
+    wide_tolerance,
 };
 
 /// Arguments of `evaluate`.
@@ -64,13 +65,17 @@ pub struct Simulate {
     /// finer tolerance.
     #[arg(long)]
     pub global_error: bool,
-    /// The integration method: auto, which begins with dop853, continues with radau5, radau9 or radau13 where the machine is stiff, and
-    /// with moreau where contacts meet too often for each instant to be found; dop853, dopri5, bs32; radau5, radau9 and radau13 for stiff
-    /// machines; taylor for smooth ones; or, in steps of --longest-step, moreau for many contacts that open and close, rk4,
-    /// semi-implicit-euler, gauss4, gauss6, gauss8, rattle or generalized-alpha.
+    /// The integration method: auto, which begins with dop853, and continues with taylor in a long run where this costs less, with radau5,
+    /// radau9 or radau13 where the machine is stiff, and with moreau where contacts meet too often for each instant to be found; dop853,
+    /// dopri5, bs32; radau5, radau9 and radau13 for stiff machines; taylor for smooth ones; or, in steps of --longest-step, moreau for many
+    /// contacts that open and close, rk4, semi-implicit-euler, gauss4, gauss6, gauss8, rattle or generalized-alpha.
     #[arg(long, value_name = "NAME", default_value = "auto")]
     pub method: String,
-    /// The longest step, in s; the length of all steps of methods that have no tolerance.
+    /// With auto: choose as one of this many runs, which share the derivation of a series; a row of a sweep of so many runs has the bits
+    /// of this run.
+    #[arg(long, value_name = "RUNS", value_parser = count, allow_hyphen_values = true)]
+    pub one_of: Option<u64>,
+    /// The maximum length of a step, in s; the length of all steps of methods that have no error control.
     #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]
     pub longest_step: Option<f64>,
     /// The maximum number of steps of the run.

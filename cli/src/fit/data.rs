@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
-use lagrangian::{Machine, State, System};
+use lagrangian::{Machine, State, System, UnknownName};
 use lagrangian_fit::least_squares::Trouble;
 use lagrangian_fit::motion::{Chart, Column, Experiment, Fit, Quantity};
 use lagrangian_mechanics::Compiled;
@@ -13,7 +13,8 @@ use lagrangian_spec::unit::{self, state_of};
 use lagrangian_sweep::signals::{self, InputArgument};
 
 use crate::call::{self, Assignment};
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
+use crate::output;
 use crate::reading;
 
 /// A file of measurements with the settings of the call: `run.csv,start(phi)=0.3,m=2,torque=run.csv:u`.
@@ -31,18 +32,11 @@ pub struct Given {
 }
 
 /// The measurements with the same name, in all experiments.
+#[derive(Clone)]
 pub struct Class {
     pub name: String,
     pub unit: String,
     pub quantity: Quantity,
-}
-
-/// The unit of the rate of a coordinate, in the notation of the header of a run's table.
-pub fn rate_unit(unit: &str) -> String {
-    match unit {
-        "1" => "1/s".into(),
-        unit => format!("{unit}/s"),
-    }
 }
 
 /// The files of a call.
@@ -69,6 +63,32 @@ pub fn read_all(call: &call::Fit) -> Result<Vec<Given>, Failure> {
 fn read(text: &str) -> Result<Given, String> {
     let wanted =
         "expected a table `.csv` or `.parquet`, followed by NAME=VALUE separated by commas";
+    let (path, rest) = text.split_at(end_of_file_name(text).ok_or(wanted)?);
+    let mut given = Given {
+        path: PathBuf::from(path),
+        label: path.to_owned(),
+        sets: Vec::new(),
+        starts: [Vec::new(), Vec::new()],
+        inputs: Vec::new(),
+    };
+    let mut names = BTreeSet::new();
+    for text in settings(rest).ok_or(wanted)? {
+        let set = call::assignment(&text)?;
+        if !names.insert(set.name.clone()) {
+            return Err(format!("`{}` is set more than once", set.name));
+        }
+        given.take(set)?;
+    }
+    // Whole families precede their members, in whichever order they are given.
+    let [starts, rates] = &mut given.starts;
+    for list in [&mut given.sets, starts, rates] {
+        list.sort_by_key(|set| set.name.contains('['));
+    }
+    Ok(given)
+}
+
+/// Where the name of a table ends that settings may follow.
+fn end_of_file_name(text: &str) -> Option<usize> {
     let lower = text.to_ascii_lowercase();
     let ends = [".csv", ".parquet"].iter().flat_map(|ending| {
         let found = lower.match_indices(ending);
@@ -78,80 +98,64 @@ fn read(text: &str) -> Result<Given, String> {
         let rest = text.get(*end..);
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(','))
     };
-    let end = ends.filter(is_end).min().ok_or(wanted)?;
-    let (path, rest) = text.split_at(end);
-    let mut experiment = Given {
-        path: PathBuf::from(path),
-        label: path.to_owned(),
-        sets: Vec::new(),
-        starts: [Vec::new(), Vec::new()],
-        inputs: Vec::new(),
-    };
+    ends.filter(is_end).min()
+}
+
+/// The settings behind the name of a table, each with its options; `None` if options come first.
+fn settings(rest: &str) -> Option<Vec<String>> {
     let mut settings: Vec<String> = Vec::new();
     let mut depth = 0_i32;
-    for (place, part) in rest
-        .split(|c: char| {
-            match c {
-                '(' | '[' => depth += 1,
-                ')' | ']' => depth -= 1,
-                _ => {}
-            }
-            c == ',' && depth == 0
-        })
-        .enumerate()
-    {
+    let parts = rest.split(|c: char| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
+        }
+        c == ',' && depth == 0
+    });
+    for part in parts.skip(1) {
         let name = part.split_once('=').map(|(name, _)| name.trim());
         // Options of a table or of a controller follow it.
         let is_option = !matches!(name, Some(name) if !["end", "every", "delay"].contains(&name));
-        match settings.last_mut() {
-            _ if place == 0 => {}
-            Some(last) if is_option => {
-                last.push(',');
-                last.push_str(part);
-            }
-            None if is_option => return Err(wanted.into()),
-            _ => settings.push(part.to_owned()),
+        if !is_option {
+            settings.push(part.to_owned());
+            continue;
         }
+        let last = settings.last_mut()?;
+        last.push(',');
+        last.push_str(part);
     }
-    let mut names = BTreeSet::new();
-    for text in &settings {
-        let set = call::assignment(text)?;
-        if !names.insert(set.name.clone()) {
-            return Err(format!("`{}` is set more than once", set.name));
-        }
+    Some(settings)
+}
+
+impl Given {
+    /// Takes a setting: of a start, of the table that drives an input, or of a parameter.
+    fn take(&mut self, set: Assignment) -> Result<(), String> {
         let inside = |word: &str| {
             let rest = set.name.strip_prefix(word)?.strip_prefix('(')?;
             Some(rest.strip_suffix(')')?.trim().to_owned())
         };
         if let Some(name) = inside("start") {
-            experiment.starts[0].push(Assignment { name, ..set });
-        } else if let Some(name) = inside("rate") {
-            experiment.starts[1].push(Assignment { name, ..set });
-        } else {
-            match signals::parse_input(&set.value) {
-                Ok(InputArgument::File { .. }) => {
-                    let written = signals::parse_input(&set.value)?;
-                    experiment.inputs.push((set.name, written));
-                }
-                Ok(InputArgument::Sampled { .. }) => {
-                    return Err(format!(
-                        "`{}`: a controller is the same in all experiments: give it by --input",
-                        set.name
-                    ));
-                }
-                Ok(InputArgument::Formula(_)) | Err(_) => experiment.sets.push(set),
-            }
+            self.starts[0].push(Assignment { name, ..set });
+            return Ok(());
         }
+        if let Some(name) = inside("rate") {
+            self.starts[1].push(Assignment { name, ..set });
+            return Ok(());
+        }
+        match signals::parse_input(&set.value) {
+            Ok(written @ InputArgument::File { .. }) => self.inputs.push((set.name, written)),
+            Ok(InputArgument::Sampled { .. }) => {
+                return Err(format!(
+                    "`{}`: a controller is the same in all experiments: give it by --input",
+                    set.name
+                ));
+            }
+            Ok(InputArgument::Formula(_)) | Err(_) => self.sets.push(set),
+        }
+        Ok(())
     }
-    // Whole families precede their members, in whichever order they are given.
-    let [starts, rates] = &mut experiment.starts;
-    for list in [&mut experiment.sets, starts, rates] {
-        list.sort_by_key(|set| set.name.contains('['));
-    }
-    Ok(experiment)
-}
 
-impl Given {
     /// The experiment without measurements. `start` holds the starts that the call gives for all experiments, and NaN elsewhere.
     ///
     /// # Errors
@@ -164,66 +168,8 @@ impl Given {
         (chart, signals): (Option<&Chart>, Signals),
     ) -> Result<Experiment, Failure> {
         let option = format!("--data {}:", self.label);
-        let wrong = |why: String| Failure::Call(format!("{option} {why}"));
-        let mut machine = machine.clone();
-        for set in &self.sets {
-            let Some(unit) = machine.unit(&set.name).map(str::to_owned) else {
-                let known: Vec<String> =
-                    machine.parameters().map(|(of, _)| of.name.into()).collect();
-                let help = match most_similar(&set.name, known.iter().map(String::as_str)) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => "start values are given as start(NAME) and rate(NAME)".into(),
-                };
-                let why = format!("no parameter or input named `{}`; {help}", set.name);
-                return Err(wrong(why));
-            };
-            let value = set.value(&option, &unit).map_err(Failure::Call)?;
-            machine
-                .set(&set.name, value)
-                .map_err(|unknown| wrong(unknown.to_string()))?;
-        }
-        if !self.sets.is_empty() {
-            let diagnostics = compiled
-                .model
-                .parameter_diagnostics(machine.parameter_values());
-            let error = diagnostics
-                .iter()
-                .find(|diagnostic| diagnostic.code.severity() == Severity::Error);
-            if let Some(error) = error {
-                return Err(wrong(format!("{} [{}]", error.message, error.code)));
-            }
-        }
-        let mut start = start.clone();
-        for (level, sets) in self.starts.iter().enumerate() {
-            for set in sets {
-                // A state of first order is the rate of its integral.
-                if let Some((integral, unit)) = reading::state_named(&start.v, &set.name)
-                    && level == 0
-                {
-                    let value = set.value(&option, &unit).map_err(Failure::Call)?;
-                    let set = start.v.set(&integral, value);
-                    set.map_err(|unknown| wrong(unknown.to_string()))?;
-                    continue;
-                }
-                let numbers = match level {
-                    0 => &mut start.q,
-                    _ => &mut start.v,
-                };
-                let unit = numbers.unit(&set.name).unwrap_or_default();
-                let unit = match level {
-                    0 => unit.to_owned(),
-                    _ => format!("({unit})/s"),
-                };
-                let mut probe = numbers.clone();
-                probe
-                    .set(&set.name, 0.0)
-                    .map_err(|unknown| wrong(unknown.to_string()))?;
-                let value = set.value(&option, &unit).map_err(Failure::Call)?;
-                numbers
-                    .set(&set.name, value)
-                    .map_err(|unknown| wrong(unknown.to_string()))?;
-            }
-        }
+        let machine = self.machine(&option, machine, compiled)?;
+        let start = self.start(&option, start)?;
         let known_numbers = |numbers: &Named| {
             numbers
                 .values
@@ -241,9 +187,67 @@ impl Given {
             columns: Vec::new(),
         })
     }
-}
 
-impl Given {
+    /// The machine with the parameters and inputs of this experiment; `option` is what messages begin with.
+    fn machine(
+        &self,
+        option: &str,
+        machine: &InterpretedMachine,
+        compiled: &Compiled<'_>,
+    ) -> Result<InterpretedMachine, Failure> {
+        let wrong = |why: String| Failure::Call(format!("{option} {why}"));
+        let mut machine = machine.clone();
+        for set in &self.sets {
+            let Some(unit) = machine.unit(&set.name).map(str::to_owned) else {
+                let known: Vec<String> =
+                    machine.parameters().map(|(of, _)| of.name.into()).collect();
+                let help = match most_similar(&set.name, known.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => "start values are given as start(NAME) and rate(NAME)".into(),
+                };
+                let why = format!("no parameter or input named `{}`; {help}", set.name);
+                return Err(wrong(why));
+            };
+            let value = set.value(option, &unit).map_err(Failure::Call)?;
+            machine
+                .set(&set.name, value)
+                .map_err(|unknown| wrong(unknown.to_string()))?;
+        }
+        if !self.sets.is_empty()
+            && let Some(why) = refusal(compiled, machine.parameter_values())
+        {
+            return Err(wrong(why));
+        }
+        Ok(machine)
+    }
+
+    /// The start with the values of this experiment.
+    fn start(&self, option: &str, start: &State<Named>) -> Result<State<Named>, Failure> {
+        let unknown = |unknown: UnknownName| Failure::Call(format!("{option} {unknown}"));
+        let mut start = start.clone();
+        let [starts, rates] = &self.starts;
+        for set in starts {
+            // A state of first order is the rate of its integral.
+            if let Some((integral, unit)) = reading::state_named(&start.v, &set.name) {
+                let value = set.value(option, &unit).map_err(Failure::Call)?;
+                start.v.set(&integral, value).map_err(unknown)?;
+                continue;
+            }
+            let unit = start.q.unit(&set.name).unwrap_or_default().to_owned();
+            start.q.clone().set(&set.name, 0.0).map_err(unknown)?;
+            let value = set.value(option, &unit).map_err(Failure::Call)?;
+            start.q.set(&set.name, value).map_err(unknown)?;
+        }
+        for set in rates {
+            let unit = start.v.unit(&set.name).unwrap_or_default();
+            let unit = format!("({unit})/s");
+            start.v.clone().set(&set.name, 0.0).map_err(unknown)?;
+            let value = set.value(option, &unit).map_err(Failure::Call)?;
+            start.v.set(&set.name, value).map_err(unknown)?;
+        }
+        Ok(start)
+    }
+
     /// The machine in Cartesian coordinates with what differs in this experiment.
     fn chart(&self, chart: &Chart, option: &str) -> Result<Chart, Failure> {
         let mut chart = chart.clone();
@@ -255,6 +259,15 @@ impl Given {
         }
         Ok(chart)
     }
+}
+
+/// Why the spec does not allow these parameters, if it does not.
+pub fn refusal(compiled: &Compiled<'_>, parameters: &[f64]) -> Option<String> {
+    let diagnostics = compiled.model.parameter_diagnostics(parameters);
+    let wrong = diagnostics
+        .iter()
+        .find(|diagnostic| diagnostic.code.severity() == Severity::Error);
+    wrong.map(|wrong| format!("{} [{}]", wrong.message, wrong.code))
 }
 
 /// All measurable quantities of a machine.
@@ -278,7 +291,7 @@ fn measurable(machine: &InterpretedMachine, compiled: &Compiled<'_>) -> Vec<Clas
         });
         all.push(Class {
             name: format!("der({})", of.name),
-            unit: rate_unit(of.unit),
+            unit: unit::rate_unit(of.name, of.unit),
             quantity: Quantity::Rate(i),
         });
     }
@@ -293,7 +306,7 @@ fn measurable(machine: &InterpretedMachine, compiled: &Compiled<'_>) -> Vec<Clas
     all
 }
 
-/// Reads the measurements into the experiments; returns the measured quantities, and notes on unused columns.
+/// Reads the measurements into the experiments, and prints notes on unused columns; returns the measured quantities.
 ///
 /// # Errors
 /// If a table or `--columns` is invalid.
@@ -301,33 +314,17 @@ pub fn measure(
     call: &call::Fit,
     machine: &InterpretedMachine,
     compiled: &Compiled<'_>,
-    given: &mut [Given],
+    given: &[Given],
     experiments: &mut [Experiment],
-) -> Result<(Vec<Class>, Vec<String>), Failure> {
+) -> Result<Vec<Class>, Failure> {
     let known = measurable(machine, compiled);
     let requested = call::names_of(&call.columns).map_err(Failure::Call)?;
-    for (place, name) in requested.iter().enumerate() {
-        if requested[..place].contains(name) {
-            return Err(Failure::Call(format!(
-                "--columns names `{name}` more than once"
-            )));
-        }
-        if !known.iter().any(|class| class.name == *name) {
-            let names = || known.iter().map(|class| class.name.as_str());
-            let help = match most_similar(name, names()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
-            };
-            return Err(Failure::Call(format!(
-                "--columns {name}: no coordinate, rate or output is named `{name}`; {help}"
-            )));
-        }
-    }
+    check_columns(&requested, &known)?;
+    let wrong = |why: String| Failure::Call(format!("--data {why}"));
     let mut classes: Vec<Class> = Vec::new();
     let mut notes = Vec::new();
     for (one, experiment) in given.iter().zip(experiments.iter_mut()) {
-        let file =
-            signals::table_file(&one.path).map_err(|why| Failure::Call(format!("--data {why}")))?;
+        let file = signals::table_file(&one.path).map_err(wrong)?;
         let names: Vec<String> = file.columns().into_iter().map(|(name, _)| name).collect();
         let mut unused = Vec::new();
         for name in &names {
@@ -339,9 +336,8 @@ pub fn measure(
                 }
                 continue;
             };
-            let (times, values) = file
-                .measured(name, &class.unit)
-                .map_err(|why| Failure::Call(format!("--data {why}")))?;
+            let measured = file.measured(name, &class.unit);
+            let (times, values) = measured.map_err(|why| wrong(why.to_string()))?;
             experiment.times = times;
             let values: Vec<Option<f64>> = values
                 .into_iter()
@@ -350,17 +346,11 @@ pub fn measure(
             if values.iter().all(Option::is_none) {
                 continue;
             }
-            let sigma = match classes.iter().position(|other| other.name == *name) {
-                Some(place) => place,
-                None => {
-                    classes.push(Class {
-                        name: class.name.clone(),
-                        unit: class.unit.clone(),
-                        quantity: class.quantity,
-                    });
-                    classes.len() - 1
-                }
-            };
+            let before = classes.iter().position(|other| other.name == *name);
+            let sigma = before.unwrap_or(classes.len());
+            if before.is_none() {
+                classes.push(class.clone());
+            }
             experiment.columns.push(Column {
                 quantity: class.quantity,
                 sigma,
@@ -369,16 +359,7 @@ pub fn measure(
         }
         check_times(one, experiment, &names, (&known[..], &requested[..]))?;
         if !unused.is_empty() {
-            let near = unused.iter().find_map(|name| {
-                let near = most_similar(name, known.iter().map(|class| class.name.as_str()))?;
-                Some(format!("; did you mean `{near}` by `{name}`?"))
-            });
-            notes.push(format!(
-                "{}: nothing is fitted to {}, which is not a coordinate, a rate or an output of the machine{}",
-                one.label,
-                unused.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
-                near.unwrap_or_default()
-            ));
+            notes.push(note_on_unused(&one.label, &unused, &known));
         }
     }
     let is_used = |name: &&String| !classes.iter().any(|class| class.name == **name);
@@ -387,7 +368,42 @@ pub fn measure(
             "--columns {name}: no table has measurements of it"
         )));
     }
-    Ok((classes, notes))
+    for note in notes {
+        output::print_error(format_args!("note: {note}"));
+    }
+    Ok(classes)
+}
+
+/// Refuses names of `--columns` that occur twice, or that no quantity has.
+fn check_columns(requested: &[String], known: &[Class]) -> Result<(), Failure> {
+    for (place, name) in requested.iter().enumerate() {
+        if requested[..place].contains(name) {
+            return Err(Failure::Call(format!(
+                "--columns names `{name}` more than once"
+            )));
+        }
+        if !known.iter().any(|class| class.name == *name) {
+            let help = help_with(name, known.iter().map(|class| class.name.as_str()));
+            return Err(Failure::Call(format!(
+                "--columns {name}: no coordinate, rate or output is named `{name}`; {help}"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// A note on the columns of a table to which nothing is fitted.
+fn note_on_unused(label: &str, unused: &[&str], known: &[Class]) -> String {
+    let near = unused.iter().find_map(|name| {
+        let near = most_similar(name, known.iter().map(|class| class.name.as_str()))?;
+        Some(format!("; did you mean `{near}` by `{name}`?"))
+    });
+    let unused: Vec<String> = unused.iter().map(|name| format!("`{name}`")).collect();
+    format!(
+        "{label}: nothing is fitted to {}, which is not a coordinate, a rate or an output of the machine{}",
+        unused.join(", "),
+        near.unwrap_or_default()
+    )
 }
 
 /// Checks that an experiment can be run over the times of its measurements.

@@ -188,51 +188,61 @@ pub fn text(result: &Fitted<'_, '_>) -> String {
     if result.searches.len() > 1 {
         text.push_str(&searches(result));
     }
-    let width = |texts: &mut dyn Iterator<Item = String>| {
-        texts.map(|t| t.chars().count()).max().unwrap_or(0)
-    };
-    let rows: Vec<(String, String, String)> = sought
-        .iter()
-        .enumerate()
-        .map(|(j, one)| {
-            let error = statistics.standard_error(j);
-            let (value, shown) = rounded(minimum.x[j], error);
-            let note = match (statistics.standing[j], error) {
-                (Standing::Estimated, Some(error)) => {
-                    let share = (error / minimum.x[j]).abs();
-                    let share = if share.is_finite() && share > 0.0 {
-                        format!("   ({})", percent(share))
-                    } else {
-                        String::new()
-                    };
-                    if shown.is_empty() {
-                        "± 0".to_owned()
-                    } else {
-                        format!("± {shown}{share}")
-                    }
-                }
-                (Standing::Bound, _) => "at its bound".to_owned(),
-                (Standing::Ineffective, _) => "has no effect".to_owned(),
-                _ => "not determined separately".to_owned(),
-            };
-            (one.name.clone(), in_unit(&value, &one.unit), note)
-        })
-        .collect();
-    text.push_str("  fitted, with standard errors\n");
-    let wide = width(&mut rows.iter().map(|row| row.0.clone()));
-    let wider = width(&mut rows.iter().map(|row| row.1.clone()));
-    for (name, value, note) in &rows {
-        let pad = " ".repeat(wide - name.chars().count());
-        let after = " ".repeat(wider - value.chars().count());
-        let _ = writeln!(text, "    {name}{pad} = {value}{after}  {note}");
-    }
+    text.push_str(&values(result));
     if !result.found.combinations.is_empty() {
         text.push_str(&combinations(result));
     }
     text.push_str(&residuals(result));
     text.push_str(&correlations(result));
-    let mut again = String::from("  as options of simulate\n   ");
-    for (one, x) in sought.iter().zip(&minimum.x) {
+    text.push_str(&options(result));
+    text
+}
+
+/// The fitted values with their standard errors.
+fn values(result: &Fitted<'_, '_>) -> String {
+    let minimum = &result.found.minimum;
+    let rows = result.fit.sought.iter().enumerate().map(|(j, one)| {
+        let error = result.found.statistics.standard_error(j);
+        let (value, shown) = rounded(minimum.x[j], error);
+        let note = standing(result, j, &shown);
+        (one.name.clone(), in_unit(&value, &one.unit), note)
+    });
+    let rows: Vec<(String, String, String)> = rows.collect();
+    let width = |of: fn(&(String, String, String)) -> &String| {
+        let lengths = rows.iter().map(|row| of(row).chars().count());
+        lengths.max().unwrap_or(0)
+    };
+    let (of_names, of_values) = (width(|row| &row.0), width(|row| &row.1));
+    let mut text = String::from("  fitted, with standard errors\n");
+    for (name, value, note) in &rows {
+        let _ = writeln!(text, "    {name:of_names$} = {value:of_values$}  {note}");
+    }
+    text
+}
+
+/// The standard error of a value, of which `shown` are the digits, or why there is none.
+fn standing(result: &Fitted<'_, '_>, j: usize, shown: &str) -> String {
+    let statistics = &result.found.statistics;
+    match (statistics.standing[j], statistics.standard_error(j)) {
+        (Standing::Estimated, Some(_)) if shown.is_empty() => "± 0".to_owned(),
+        (Standing::Estimated, Some(error)) => {
+            let share = (error / result.found.minimum.x[j]).abs();
+            if share.is_finite() && share > 0.0 {
+                format!("± {shown}   ({})", percent(share))
+            } else {
+                format!("± {shown}")
+            }
+        }
+        (Standing::Bound, _) => "at its bound".to_owned(),
+        (Standing::Ineffective, _) => "has no effect".to_owned(),
+        _ => "not determined separately".to_owned(),
+    }
+}
+
+/// The result as options of `simulate`.
+fn options(result: &Fitted<'_, '_>) -> String {
+    let mut text = String::from("  as options of simulate\n   ");
+    for (one, x) in result.fit.sought.iter().zip(&result.found.minimum.x) {
         let (option, name) = match one.subject {
             Subject::Parameter(_) => ("--set", one.name.clone()),
             Subject::Start(e, place) if result.given.len() == 1 => {
@@ -247,9 +257,8 @@ pub fn text(result: &Fitted<'_, '_>) -> String {
             }
             _ => continue,
         };
-        let _ = write!(again, " {option} {name}={}", shortest(*x));
+        let _ = write!(text, " {option} {name}={}", shortest(*x));
     }
-    text.push_str(&again);
     text.push('\n');
     text
 }
@@ -420,6 +429,53 @@ fn correlations(result: &Fitted<'_, '_>) -> String {
 pub fn document(result: &Fitted<'_, '_>) -> Value {
     let statistics = &result.found.statistics;
     let minimum = &result.found.minimum;
+    let count = result.fit.sought.len();
+    let matrix = |entry: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
+        (0..count)
+            .map(|j| (0..count).map(|k| entry(j, k)).collect())
+            .collect()
+    };
+    let covariance = matrix(&|j, k| {
+        statistics.correlation(j, k)?;
+        Some(statistics.covariance[(j, k)])
+    });
+    json!({
+        "machine": lagrangian::Machine::name(result.machine),
+        "converged": minimum.ending.is_minimum(),
+        "ending": minimum.ending.words(),
+        "steps": minimum.steps,
+        "evaluations": minimum.evaluations,
+        "runs": result.fit.runs[0],
+        "runs_with_derivatives": result.fit.runs[1],
+        "derivatives": match result.found.derivatives {
+            Derivatives::Integrated => "integrated",
+            Derivatives::Differences => "differences",
+        },
+        "fitted": fitted_as_json(result),
+        "covariance": covariance,
+        "correlation": matrix(&|j, k| statistics.correlation(j, k)),
+        "combinations": combinations_as_json(result),
+        "measurements": statistics.measurements,
+        "degrees_of_freedom": statistics.freedom,
+        "chi_squared": statistics.chi_squared,
+        "variance": Some(statistics.variance).filter(|it| it.is_finite()),
+        "sigma": match result.sigmas {
+            Sigmas::Equal => "equal",
+            Sigmas::Given => "given",
+            Sigmas::Estimated => "estimated",
+        },
+        "columns": columns_as_json(result),
+        "singular_values": statistics.singular_values,
+        "sums": minimum.sums,
+        "searches": searches_as_json(result),
+        "warnings": result.warnings,
+    })
+}
+
+/// The fitted numbers, as JSON.
+fn fitted_as_json(result: &Fitted<'_, '_>) -> Vec<Value> {
+    let statistics = &result.found.statistics;
+    let minimum = &result.found.minimum;
     let sought = &result.fit.sought;
     let standing = |standing: Standing| match standing {
         Standing::Estimated => "estimated",
@@ -428,7 +484,7 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
         Standing::Entangled => "entangled",
     };
     let finite = |x: f64| x.is_finite().then_some(x);
-    let fitted: Vec<Value> = sought
+    sought
         .iter()
         .enumerate()
         .map(|(j, one)| {
@@ -447,18 +503,12 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
                 "bounds": one.bounds.map(finite),
             })
         })
-        .collect();
-    let matrix = |entry: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
-        let count = sought.len();
-        (0..count)
-            .map(|j| (0..count).map(|k| entry(j, k)).collect())
-            .collect()
-    };
-    let covariance = matrix(&|j, k| {
-        statistics.correlation(j, k)?;
-        Some(statistics.covariance[(j, k)])
-    });
-    let columns: Vec<Value> = result
+        .collect()
+}
+
+/// The measured quantities with their residuals, as JSON.
+fn columns_as_json(result: &Fitted<'_, '_>) -> Vec<Value> {
+    result
         .classes
         .iter()
         .zip(roots(result))
@@ -471,38 +521,7 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
                 "sigma": (result.sigmas != Sigmas::Equal).then(|| result.fit.sigmas[place]),
             })
         })
-        .collect();
-    json!({
-        "machine": lagrangian::Machine::name(result.machine),
-        "converged": minimum.ending.is_minimum(),
-        "ending": minimum.ending.words(),
-        "steps": minimum.steps,
-        "evaluations": minimum.evaluations,
-        "runs": result.fit.runs[0],
-        "runs_with_derivatives": result.fit.runs[1],
-        "derivatives": match result.found.derivatives {
-            Derivatives::Integrated => "integrated",
-            Derivatives::Differences => "differences",
-        },
-        "fitted": fitted,
-        "covariance": covariance,
-        "correlation": matrix(&|j, k| statistics.correlation(j, k)),
-        "combinations": combinations_as_json(result),
-        "measurements": statistics.measurements,
-        "degrees_of_freedom": statistics.freedom,
-        "chi_squared": statistics.chi_squared,
-        "variance": finite(statistics.variance),
-        "sigma": match result.sigmas {
-            Sigmas::Equal => "equal",
-            Sigmas::Given => "given",
-            Sigmas::Estimated => "estimated",
-        },
-        "columns": columns,
-        "singular_values": statistics.singular_values,
-        "sums": minimum.sums,
-        "searches": searches_as_json(result),
-        "warnings": result.warnings,
-    })
+        .collect()
 }
 
 /// The combinations of numbers that the data determine better than the numbers themselves, as JSON.

@@ -1,5 +1,6 @@
 //! `modelDescription.xml`, in both versions, and `buildDescription.xml`.
 
+use lagrangian_program::Slot;
 use lagrangian_units::{Unit as PhysicalUnit, state_of};
 
 use super::dependencies::Dependencies;
@@ -161,116 +162,128 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
 
 /// The attributes of a variable.
 fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
-    let program = unit.program;
-    let n = program.coordinates.len();
+    let n = unit.program.coordinates.len();
     let state = |i: usize| unit.start.get(i).map_or(0.0, |(x, _)| *x);
-    let shown = if variable.is_output {
-        "output"
-    } else {
-        "local"
-    };
-    let calculated = |unit: String, docs: String| Row {
-        causality: shown,
+    let (physical, docs) = unit_and_docs(unit, variable.kind, units);
+    let row = Row {
+        causality: if variable.is_output {
+            "output"
+        } else {
+            "local"
+        },
         variability: "continuous",
         initial: "calculated",
         start: String::new(),
         derivative: None,
-        unit,
+        unit: physical,
         docs,
-    };
-    let exact = |start: f64, unit: String, docs: String| Row {
-        initial: "exact",
-        start: format!("{start:?}"),
-        ..calculated(unit, docs)
     };
     match variable.kind {
         VariableKind::Time => Row {
             causality: "independent",
             initial: "",
-            ..calculated(units.of(PhysicalUnit::SECOND), "Time".into())
+            ..row
         },
+        VariableKind::Coordinate(i) => row.starting_at(state(i)),
+        VariableKind::Rate(i) => Row {
+            derivative: Some(1 + i),
+            ..row.starting_at(state(n + i))
+        },
+        VariableKind::Acceleration(i) => Row {
+            derivative: Some(1 + n + i),
+            ..row
+        },
+        VariableKind::Parameter(i) => Row {
+            causality: "parameter",
+            variability: "tunable",
+            ..row.starting_at(unit.machine.parameter_values()[i])
+        },
+        VariableKind::Input(i) => Row {
+            causality: "input",
+            // The causality implies it.
+            initial: "",
+            ..row.starting_at(unit.inputs[i])
+        },
+        VariableKind::Count(_) => Row {
+            variability: "discrete",
+            ..row
+        },
+        VariableKind::Output(_)
+        | VariableKind::Multiplier(_)
+        | VariableKind::KineticEnergy
+        | VariableKind::PotentialEnergy
+        | VariableKind::Fact(_)
+        | VariableKind::Event(_) => row,
+    }
+}
+
+impl Row {
+    /// The same variable with a start value that is exact.
+    fn starting_at(self, start: f64) -> Row {
+        Row {
+            initial: "exact",
+            start: format!("{start:?}"),
+            ..self
+        }
+    }
+}
+
+/// The unit of a variable, and what it is in words.
+fn unit_and_docs(unit: &Unit<'_>, kind: VariableKind, units: &mut Units) -> (String, String) {
+    let program = unit.program;
+    let of_state = |i: usize| state_of(&program.coordinates[i].name.to_string());
+    match kind {
+        VariableKind::Time => (units.of(PhysicalUnit::SECOND), "Time".into()),
         VariableKind::Coordinate(i) => {
             let slot = &program.coordinates[i];
-            let docs = match state_of(&slot.name.to_string()) {
+            let docs = match of_state(i) {
                 Some(state) => format!("Integral of {state} over time, on which nothing depends"),
                 None => words(&slot.docs),
             };
-            exact(state(i), units.of(slot.unit), docs)
+            (units.of(slot.unit), docs)
         }
         VariableKind::Rate(i) => {
             let slot = &program.coordinates[i];
-            Row {
-                derivative: Some(1 + i),
-                ..exact(
-                    state(n + i),
-                    units.of(slot.unit.rate()),
-                    match state_of(&slot.name.to_string()) {
-                        Some(_) => words(&slot.docs),
-                        None => String::new(),
-                    },
-                )
-            }
+            let docs = of_state(i).map_or_else(String::new, |_| words(&slot.docs));
+            (units.of(slot.unit.rate()), docs)
         }
         VariableKind::Acceleration(i) => {
             let slot = &program.coordinates[i];
-            Row {
-                derivative: Some(1 + n + i),
-                ..calculated(units.of(slot.unit.rate().rate()), String::new())
-            }
+            (units.of(slot.unit.rate().rate()), String::new())
         }
-        VariableKind::Parameter(i) => {
-            let slot = &program.parameters[i];
-            let value = unit.machine.parameter_values()[i];
-            Row {
-                causality: "parameter",
-                variability: "tunable",
-                ..exact(value, units.of_slot(slot), words(&slot.docs))
-            }
-        }
-        VariableKind::Input(i) => {
-            let slot = &program.inputs[i];
-            let value = unit.inputs[i];
-            Row {
-                causality: "input",
-                // The causality implies it.
-                initial: "",
-                ..exact(value, units.of_slot(slot), words(&slot.docs))
-            }
-        }
-        VariableKind::Output(i) => {
-            let slot = &program.outputs[i];
-            calculated(units.of_slot(slot), words(&slot.docs))
-        }
+        VariableKind::Parameter(i) => of_slot(&program.parameters[i], units),
+        VariableKind::Input(i) => of_slot(&program.inputs[i], units),
+        VariableKind::Output(i) => of_slot(&program.outputs[i], units),
         VariableKind::Multiplier(i) => {
             let constraint = &program.constraints[i];
             let unit = &constraint.multiplier_unit;
             let docs = format!("Lagrange multiplier of {}, in {unit}", constraint.name);
-            calculated(String::new(), docs)
+            (String::new(), docs)
         }
-        VariableKind::KineticEnergy => {
-            calculated(units.of(PhysicalUnit::JOULE), "Kinetic energy".into())
-        }
-        VariableKind::PotentialEnergy => {
-            calculated(units.of(PhysicalUnit::JOULE), "Potential energy".into())
-        }
+        VariableKind::KineticEnergy => (units.of(PhysicalUnit::JOULE), "Kinetic energy".into()),
+        VariableKind::PotentialEnergy => (units.of(PhysicalUnit::JOULE), "Potential energy".into()),
         VariableKind::Fact(i) => {
             let text = &program.assumptions[i].text;
-            calculated(String::new(), format!("Positive as long as {text}"))
+            (String::new(), format!("Positive as long as {text}"))
         }
         VariableKind::Event(i) => {
             let slot = &program.outputs[program.outputs.len() - unit.events.len() + i];
             let Assignment { name, value } = &unit.events[i];
             let docs = format!("Changes sign at the event {name}: {}", words(value));
-            calculated(units.of_slot(slot), docs)
+            (units.of_slot(slot), docs)
         }
-        VariableKind::Count(i) => Row {
-            variability: "discrete",
-            ..calculated(
+        VariableKind::Count(i) => {
+            let name = &unit.events[i].name;
+            (
                 String::new(),
-                format!("How often the event {} happened", unit.events[i].name),
+                format!("How often the event {name} happened"),
             )
-        },
+        }
     }
+}
+
+fn of_slot(slot: &Slot, units: &mut Units) -> (String, String) {
+    (units.of_slot(slot), words(&slot.docs))
 }
 
 fn variable_of_version_3(

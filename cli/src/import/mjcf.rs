@@ -612,11 +612,43 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 
     fn turns(&mut self, item: &Item<'e>) -> Turns {
+        let Some(name) = self.orientation(item) else {
+            return Turns::new();
+        };
+        let turns = match name {
+            "axisangle" => self.numbers::<4>(item, name).map(|[x, y, z, angle]| {
+                let axis = Vector3::new(x.value, y.value, z.value);
+                (axis.amax() > 0.0).then(|| conjugating(&unit(&axis), self.angle(&angle)))
+            }),
+            "euler" => self
+                .numbers::<3>(item, name)
+                .map(|angles| Some(self.turns_in_sequence(&angles))),
+            name => {
+                let axes = self.axes(item, name);
+                axes.map(|axes| axes.map(|axes| steps::turns(&axes)))
+            }
+        };
+        match turns {
+            None => Turns::new(),
+            Some(Some(turns)) => turns,
+            Some(None) => {
+                let at = self
+                    .attribute_of(item, name)
+                    .map_or(item.element.at, |it| it.at);
+                let message = format!("`{name}` of {} has no direction", item.owner);
+                self.faults.add(at, message);
+                Turns::new()
+            }
+        }
+    }
+
+    /// The attribute that gives the orientation of an element.
+    fn orientation(&mut self, item: &Item<'e>) -> Option<&'static str> {
         let given: Vec<&str> = ORIENTATIONS
             .into_iter()
             .filter(|name| item.element.own(name).is_some())
             .collect();
-        let name = match given[..] {
+        match given[..] {
             // The nearest class that gives any orientation, whichever attribute the classes above use.
             [] => {
                 let tags = vec![item.tag];
@@ -634,43 +666,33 @@ impl<'e> Reader<'_, '_, 'e> {
                 self.faults.add(at, message);
                 None
             }
-        };
-        let Some(name) = name else {
-            return Vec::new();
-        };
-        let value = match name {
+        }
+    }
+
+    /// The turns about the axes of the compiler's sequence of Euler angles.
+    fn turns_in_sequence(&self, angles: &[Number; 3]) -> Turns {
+        let mut turns = Turns::new();
+        for (letter, angle) in self.compiler.sequence.bytes().zip(angles) {
+            let axis = usize::from(letter.to_ascii_lowercase() - b'x');
+            let turn = (axis, self.angle(angle));
+            if letter.is_ascii_lowercase() {
+                turns.push(turn)
+            } else {
+                turns.insert(0, turn)
+            }
+        }
+        turns.retain(|(_, angle)| !angle.is_zero());
+        turns
+    }
+
+    /// The axes that a quaternion, two axes or the third one give; the inner value is `None` if these have no direction.
+    fn axes(&mut self, item: &Item<'e>, name: &str) -> Option<Option<Matrix3<f64>>> {
+        match name {
             "quat" => self.numbers::<4>(item, name).map(|numbers| {
                 let [w, x, y, z] = numbers.map(|number| number.value);
                 let quaternion = Quaternion::new(w, x, y, z);
                 (quaternion.norm() > 0.0).then(|| matrix(&quaternion))
             }),
-            "axisangle" => {
-                let Some([x, y, z, angle]) = self.numbers::<4>(item, name) else {
-                    return Vec::new();
-                };
-                let axis = Vector3::new(x.value, y.value, z.value);
-                if axis.amax() > 0.0 {
-                    return conjugating(&unit(&axis), self.angle(&angle));
-                }
-                Some(None)
-            }
-            "euler" => {
-                let Some(angles) = self.numbers::<3>(item, name) else {
-                    return Vec::new();
-                };
-                let mut turns = Turns::new();
-                for (letter, angle) in self.compiler.sequence.bytes().zip(&angles) {
-                    let axis = usize::from(letter.to_ascii_lowercase() - b'x');
-                    let turn = (axis, self.angle(angle));
-                    if letter.is_ascii_lowercase() {
-                        turns.push(turn)
-                    } else {
-                        turns.insert(0, turn)
-                    }
-                }
-                turns.retain(|(_, angle)| !angle.is_zero());
-                return turns;
-            }
             "xyaxes" => self.numbers::<6>(item, name).map(|numbers| {
                 let numbers = numbers.map(|number| number.value);
                 let x = Vector3::new(numbers[0], numbers[1], numbers[2]);
@@ -683,18 +705,6 @@ impl<'e> Reader<'_, '_, 'e> {
                 let z = Vector3::from(numbers.map(|number| number.value)).try_normalize(0.0)?;
                 Some(towards(&z))
             }),
-        };
-        match value {
-            None => Vec::new(),
-            Some(Some(rotation)) => steps::turns(&rotation),
-            Some(None) => {
-                let at = self
-                    .attribute_of(item, name)
-                    .map_or(item.element.at, |it| it.at);
-                let message = format!("`{name}` of {} has no direction", item.owner);
-                self.faults.add(at, message);
-                Vec::new()
-            }
         }
     }
 }

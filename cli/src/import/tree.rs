@@ -50,6 +50,44 @@ pub fn build(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
         faults,
     );
     let leader = leaders(joints, &by_name, faults);
+    let (parent, child) = ends(joints, &places, faults)?;
+    let mut below = vec![Vec::new(); links.len()];
+    for (joint, upper) in parent.iter().enumerate() {
+        below[*upper].push(joint);
+    }
+    let root = root(robot, &child, faults)?;
+    let mut order = Vec::with_capacity(joints.len());
+    let mut waiting: Vec<usize> = below[root].iter().rev().copied().collect();
+    while let Some(joint) = waiting.pop() {
+        order.push(joint);
+        waiting.extend(below[child[joint]].iter().rev());
+    }
+    if order.len() < joints.len() && faults.is_empty() {
+        let mut is_reached = vec![false; joints.len()];
+        order.iter().for_each(|joint| is_reached[*joint] = true);
+        for joint in (0..joints.len()).filter(|joint| !is_reached[*joint]) {
+            let message = format!(
+                "joint {} is part of a closed loop that is not connected to the root",
+                quoted(&joints[joint].name)
+            );
+            faults.add(joints[joint].at, message);
+        }
+    }
+    faults.is_empty().then_some(Tree {
+        root,
+        order,
+        parent,
+        child,
+        leader,
+    })
+}
+
+/// The links at both ends of each joint: parents and children.
+fn ends(
+    joints: &[Joint],
+    places: &HashMap<&str, usize>,
+    faults: &mut Faults,
+) -> Option<(Vec<usize>, Vec<usize>)> {
     let mut end = |joint: &Joint, name: &str, end_name: &str| {
         let found = places.get(name).copied();
         if found.is_none() {
@@ -62,6 +100,7 @@ pub fn build(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
         }
         found
     };
+    // All joints are looked at, so that all faults are found.
     let ends: Vec<_> = joints
         .iter()
         .map(|joint| {
@@ -72,11 +111,14 @@ pub fn build(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
         })
         .collect();
     let ends = ends.into_iter().collect::<Option<Vec<_>>>()?;
-    let (parent, child): (Vec<usize>, Vec<usize>) = ends.into_iter().unzip();
+    Some(ends.into_iter().unzip())
+}
+
+/// The one link without a parent, if every other link has one.
+fn root(robot: &Robot, child: &[usize], faults: &mut Faults) -> Option<usize> {
+    let Robot { links, joints, .. } = robot;
     let mut above = vec![None; links.len()];
-    let mut below = vec![Vec::new(); links.len()];
-    for (joint, (&upper, &lower)) in parent.iter().zip(&child).enumerate() {
-        below[upper].push(joint);
+    for (joint, &lower) in child.iter().enumerate() {
         if let Some(other) = above[lower].replace(joint) {
             let other: &Joint = &joints[other];
             let message = format!(
@@ -109,30 +151,7 @@ pub fn build(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
         );
         faults.add(links[other].at, message);
     }
-    let mut order = Vec::with_capacity(joints.len());
-    let mut waiting: Vec<usize> = below[root].iter().rev().copied().collect();
-    while let Some(joint) = waiting.pop() {
-        order.push(joint);
-        waiting.extend(below[child[joint]].iter().rev());
-    }
-    if order.len() < joints.len() && faults.is_empty() {
-        let mut is_reached = vec![false; joints.len()];
-        order.iter().for_each(|joint| is_reached[*joint] = true);
-        for joint in (0..joints.len()).filter(|joint| !is_reached[*joint]) {
-            let message = format!(
-                "joint {} is part of a closed loop that is not connected to the root",
-                quoted(&joints[joint].name)
-            );
-            faults.add(joints[joint].at, message);
-        }
-    }
-    faults.is_empty().then_some(Tree {
-        root,
-        order,
-        parent,
-        child,
-        leader,
-    })
+    Some(root)
 }
 
 /// Which joint each joint follows.

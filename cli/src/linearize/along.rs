@@ -13,6 +13,7 @@ use super::files::Files;
 use crate::call;
 use crate::failure::Failure;
 use crate::modes::{number, vary::Trace};
+use crate::numbers::after_number;
 use crate::output;
 use crate::table;
 
@@ -84,10 +85,7 @@ pub fn show(
     }
     let [first, last] = [trace.points.first(), trace.points.last()];
     let [first, last] = [first, last].map(|point| point.map_or(0.0, |point| point.value));
-    let unit = match trace.unit.as_str() {
-        "1" => String::new(),
-        unit => format!(" {unit}"),
-    };
+    let unit = after_number(&trace.unit);
     let mut text = format!(
         "{} eigenvalues of {} modes along {} from {} to {}{unit}, {} values\n",
         rows.len(),

@@ -136,47 +136,18 @@ pub fn trace(
     machine: &InterpretedMachine,
 ) -> Result<Trace, Failure> {
     let (tracer, unit) = Tracer::new(search, (option, vary), machine)?;
-    let end = |set: &call::Assignment| set.value(option, &unit).map_err(Failure::Call);
-    let (first, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
-    if first == to {
-        let message = format!(
-            "{option} {}: the range from {first} to {to} is empty",
-            vary.name
-        );
-        return Err(Failure::Call(message));
-    }
-    let last = vary.count - 1;
-    let value = |k: usize| match k {
-        _ if k == last => to,
-        _ => first + (to - first) * (k as f64 / last as f64),
-    };
-    for k in 0..=last {
-        let machine = tracer.machine_at(value(k));
-        let mut diagnostics = compiled
-            .model
-            .parameter_diagnostics(machine.parameter_values());
-        if k > 0 {
-            // Warnings are printed only once.
-            diagnostics.retain(|diagnostic| diagnostic.code.severity() == Severity::Error);
-        }
-        diagnostics::check(&diagnostics).map_err(Failure::Call)?;
-        // The first value may happen to remove a time dependence, so other values are checked too.
-        if k < 2 || k == last {
-            let (q, wanted) = tracer.start(&machine)?;
-            refuse_drives(&machine, &q, &wanted)?;
-        }
-    }
+    let values = vary.values(option, &unit).map_err(Failure::Call)?;
+    tracer.check(compiled, &values)?;
     progress::now("following the motion");
     let interrupt = Interrupt::watch();
-    let mut points: Vec<Point> = Vec::with_capacity(vary.count);
+    let mut points: Vec<Point> = Vec::with_capacity(values.len());
     let mut critical: Vec<Critical> = Vec::new();
     let mut before: Option<At> = None;
-    for k in 0..=last {
+    for value in values {
         if interrupt.was_pressed() {
             output::print_error("interrupted: nothing is written or printed");
             return Err(Failure::Interrupted);
         }
-        let value = value(k);
         let followed = before
             .as_ref()
             .map(|before| tracer.continuation(before, value, MOST_HALVINGS));
@@ -293,6 +264,27 @@ impl<'a> Tracer<'a> {
             wanted,
         };
         Ok((tracer, unit))
+    }
+
+    /// Refuses values that the spec does not allow, and machines that are driven.
+    fn check(&self, compiled: &Compiled<'_>, values: &[f64]) -> Result<(), Failure> {
+        for (k, value) in values.iter().enumerate() {
+            let machine = self.machine_at(*value);
+            let mut diagnostics = compiled
+                .model
+                .parameter_diagnostics(machine.parameter_values());
+            if k > 0 {
+                // Warnings are printed only once.
+                diagnostics.retain(|diagnostic| diagnostic.code.severity() == Severity::Error);
+            }
+            diagnostics::check(&diagnostics).map_err(Failure::Call)?;
+            // The first value may happen to remove a time dependence, so other values are checked too.
+            if k < 2 || k + 1 == values.len() {
+                let (q, wanted) = self.start(&machine)?;
+                refuse_drives(&machine, &q, &wanted)?;
+            }
+        }
+        Ok(())
     }
 
     /// Prints a warning for each fact that the spec assumes and that does not hold at some of the values, with the first of them.

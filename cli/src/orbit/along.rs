@@ -13,7 +13,7 @@ use crate::call;
 use crate::drawing::{self, Curve, Pane};
 use crate::failure::Failure;
 use crate::modes::number;
-use crate::numbers::shortest;
+use crate::numbers::{after_number, shortest};
 use crate::output::{self, Destination};
 use crate::reading;
 use crate::runs::{self, header};
@@ -28,69 +28,16 @@ pub(super) fn along(
     files: &[Option<Destination>; 2],
 ) -> Result<(), Failure> {
     let machine = &ready.machine;
-    let unit = machine.unit(&vary.name).map(str::to_owned).ok_or_else(|| {
-        let mut probe = machine.clone();
-        match probe.set(&vary.name, 1.0) {
-            Err(unknown) => match reading::name_error("parameter or input", &unknown) {
-                Failure::Call(message) => {
-                    Failure::Call(format!("--along {}: {message}", vary.name))
-                }
-                other => other,
-            },
-            Ok(()) => Failure::Call(format!("--along {}: it has no unit", vary.name)),
-        }
-    })?;
-    if call
-        .start
-        .parameters
-        .iter()
-        .any(|set| set.name == vary.name)
-    {
+    let unit = unit_of(machine, &vary.name)?;
+    let mut set = call.start.parameters.iter();
+    if set.any(|set| set.name == vary.name) {
         return Err(Failure::Call(format!(
             "--set {0}=… and --along {0} both give `{0}` a value: leave out the first",
             vary.name
         )));
     }
-    let end = |set: &call::Assignment| set.value("--along", &unit).map_err(Failure::Call);
-    let (from, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
-    if from == to {
-        return Err(Failure::Call(format!(
-            "--along {}: the range from {from} to {to} is empty",
-            vary.name
-        )));
-    }
-    let last = vary.count - 1;
-    let values: Vec<f64> = (0..vary.count)
-        .map(|k| {
-            if k == last {
-                to
-            } else {
-                from + (to - from) * (k as f64 / last as f64)
-            }
-        })
-        .collect();
-    let make = |value: f64| -> Result<(InterpretedMachine, Option<f64>), Stop> {
-        let mut machine = machine.clone();
-        machine
-            .set(&vary.name, value)
-            .map_err(|wrong| Stop::Failed(Failure::run(wrong)))?;
-        reading::set_members(&mut machine, &call.start, &vary.name);
-        let diagnostics = ready
-            .compiled
-            .model
-            .parameter_diagnostics(machine.parameter_values());
-        crate::diagnostics::check(&diagnostics)
-            .map_err(|message| Stop::Failed(Failure::Call(message)))?;
-        let period = match &ready.period {
-            None => None,
-            Some((formula, output)) => {
-                let start = machine.start();
-                let period = runs::period_of(&machine, &start, *output, "--period", formula);
-                Some(period.map_err(Stop::Failed)?)
-            }
-        };
-        Ok((machine, period))
-    };
+    let values = vary.values("--along", &unit).map_err(Failure::Call)?;
+    let make = |value: f64| machine_at(call, ready, &vary.name, value);
     let trace = orbit::follow(make, sought, &values).map_err(|stop| match stop {
         Stop::Failed(failure) => failure,
         Stop::None(none) => no_orbit_failure(
@@ -113,31 +60,79 @@ pub(super) fn along(
         file.write_text(&drawn.map_err(Failure::Run)?)?;
     }
     if call.spec.json {
-        let points = trace.points.iter().map(|point| match &point.orbit {
-            Ok(orbit) => {
-                let mut document = as_json(machine, orbit);
-                document["value"] = json!(point.value);
-                document
-            }
-            Err(none) => json!({"value": point.value, "error": none.to_string()}),
-        });
-        let changes = trace.changes.iter().map(|changed| {
-            json!({
-                "between": changed.between,
-                "change": changed.change.name(),
-                "multiplier": {"re": changed.multiplier.re, "im": changed.multiplier.im},
-            })
-        });
-        let document = json!({
-            "along": {"name": vary.name, "unit": unit},
-            "points": points.collect::<Vec<Value>>(),
-            "changes": changes.collect::<Vec<Value>>(),
-        });
+        let document = document(machine, &trace, &vary.name, &unit);
         output::line(format_args!("{document:#}"));
     } else {
         output::text(&text_of_trace(&trace, &vary.name, &unit))
     }
     Ok(())
+}
+
+/// The unit of the parameter or input along which orbits are continued.
+fn unit_of(machine: &InterpretedMachine, name: &str) -> Result<String, Failure> {
+    if let Some(unit) = machine.unit(name) {
+        return Ok(unit.to_owned());
+    }
+    let Err(unknown) = machine.clone().set(name, 1.0) else {
+        return Err(Failure::Call(format!("--along {name}: it has no unit")));
+    };
+    Err(match reading::name_error("parameter or input", &unknown) {
+        Failure::Call(message) => Failure::Call(format!("--along {name}: {message}")),
+        other => other,
+    })
+}
+
+/// The machine at a value of the parameter, and the period of its drive, if the call gives it.
+fn machine_at(
+    call: &call::Orbit,
+    ready: &Ready<'_>,
+    name: &str,
+    value: f64,
+) -> Result<(InterpretedMachine, Option<f64>), Stop> {
+    let mut machine = ready.machine.clone();
+    machine
+        .set(name, value)
+        .map_err(|wrong| Stop::Failed(Failure::run(wrong)))?;
+    reading::set_members(&mut machine, &call.start, name);
+    let diagnostics = ready
+        .compiled
+        .model
+        .parameter_diagnostics(machine.parameter_values());
+    crate::diagnostics::check(&diagnostics)
+        .map_err(|message| Stop::Failed(Failure::Call(message)))?;
+    let period = match &ready.period {
+        None => None,
+        Some((formula, output)) => {
+            let start = machine.start();
+            let period = runs::period_of(&machine, &start, *output, "--period", formula);
+            Some(period.map_err(Stop::Failed)?)
+        }
+    };
+    Ok((machine, period))
+}
+
+/// The orbits as JSON.
+fn document(machine: &InterpretedMachine, trace: &Trace, name: &str, unit: &str) -> Value {
+    let points = trace.points.iter().map(|point| match &point.orbit {
+        Ok(orbit) => {
+            let mut document = as_json(machine, orbit);
+            document["value"] = json!(point.value);
+            document
+        }
+        Err(none) => json!({"value": point.value, "error": none.to_string()}),
+    });
+    let changes = trace.changes.iter().map(|changed| {
+        json!({
+            "between": changed.between,
+            "change": changed.change.name(),
+            "multiplier": {"re": changed.multiplier.re, "im": changed.multiplier.im},
+        })
+    });
+    json!({
+        "along": {"name": name, "unit": unit},
+        "points": points.collect::<Vec<Value>>(),
+        "changes": changes.collect::<Vec<Value>>(),
+    })
 }
 
 /// Why a continuation is stopped.
@@ -237,11 +232,7 @@ fn panes(trace: &Trace, label: &str) -> Vec<Pane> {
 }
 
 fn text_of_trace(trace: &Trace, name: &str, unit: &str) -> String {
-    let unit = if unit == "1" {
-        String::new()
-    } else {
-        format!(" {unit}")
-    };
+    let unit = after_number(unit);
     let orbits = trace
         .points
         .iter()

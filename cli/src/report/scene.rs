@@ -259,6 +259,39 @@ struct Points {
     gravity: Option<usize>,
 }
 
+/// The point and directions of each contact, then of each rolling contact; `None` if only an expression is known.
+fn touching_points<'d>(
+    model: &Model<'d>,
+    places: &mut Places<'d>,
+) -> Vec<Option<(usize, Vec<usize>)>> {
+    let mut touch = |site: touching::Site<'d>| {
+        let touching::Site { point, directions } = site;
+        let directions = directions.iter().map(|along| places.of(along));
+        let directions = directions.collect();
+        Some((places.of(&point), directions))
+    };
+    let mut touching = Vec::new();
+    for contact in &model.contacts {
+        touching.push(match &contact.geometry {
+            ContactGeometry::Circles(circles) => {
+                let circle = &model.circles[circles.circle];
+                touch(touching::site(model, circle, circles.surface))
+            }
+            ContactGeometry::Point { point, surface } => {
+                touch(touching::site(model, point, *surface))
+            }
+            ContactGeometry::Corner(corner) => touch(touching::site_of_corner(model, corner)),
+            ContactGeometry::Expressions { .. } => None,
+        });
+    }
+    for rolling in model.rolling() {
+        let circles = rolling.circles;
+        let circle = &model.circles[circles.circle];
+        touching.push(touch(touching::site(model, circle, circles.surface)));
+    }
+    touching
+}
+
 impl Points {
     fn new<'d>(model: &Model<'d>, places: &mut Places<'d>) -> Points {
         let dimension = model.space.dimension();
@@ -305,31 +338,7 @@ impl Points {
             Site::At(point) => SitePoints::At(places.of(point)),
         });
         let sites = sites.collect();
-        let mut touch = |site: touching::Site<'d>| {
-            let touching::Site { point, directions } = site;
-            let directions = directions.iter().map(|along| places.of(along));
-            let directions = directions.collect();
-            Some((places.of(&point), directions))
-        };
-        let mut touching = Vec::new();
-        for contact in &model.contacts {
-            touching.push(match &contact.geometry {
-                ContactGeometry::Circles(circles) => {
-                    let circle = &model.circles[circles.circle];
-                    touch(touching::site(model, circle, circles.surface))
-                }
-                ContactGeometry::Point { point, surface } => {
-                    touch(touching::site(model, point, *surface))
-                }
-                ContactGeometry::Corner(corner) => touch(touching::site_of_corner(model, corner)),
-                ContactGeometry::Expressions { .. } => None,
-            });
-        }
-        for rolling in model.rolling() {
-            let circles = rolling.circles;
-            let circle = &model.circles[circles.circle];
-            touching.push(touch(touching::site(model, circle, circles.surface)));
-        }
+        let touching = touching_points(model, places);
         Points {
             dimension,
             origins,

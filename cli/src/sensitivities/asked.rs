@@ -1,15 +1,14 @@
-//! What a call differentiates, and by what.
+//! The quantities that a call differentiates, and the variables by which it does.
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, State, System};
 use lagrangian_linear::starts::Cause;
-use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_spec::model::Model;
-use lagrangian_spec::unit::{self, integral_name, state_of};
 use lagrangian_symbolic::Expr;
+use lagrangian_units::{integral_name, rate_name, rate_unit, state_of};
 
 use crate::call;
-use crate::failure::Failure;
+use crate::failure::{Failure, help_with};
 use crate::reading::places;
 
 /// A variable of differentiation.
@@ -70,74 +69,187 @@ pub(super) fn followed(model: &Model<'_>, name: &str) -> Option<Vec<String>> {
     Some(followed.map(|of| format!("`{}`", of.name)).collect())
 }
 
+/// The names and units of what a machine has.
+struct Known {
+    parameters: Vec<(String, String)>,
+    inputs: Vec<(String, String)>,
+    outputs: Vec<(String, String)>,
+    coordinates: Vec<(String, String)>,
+}
+
+impl Known {
+    fn of(machine: &InterpretedMachine) -> Known {
+        let program = machine.program();
+        let slots = |slots: &[lagrangian_program::Slot]| -> Vec<(String, String)> {
+            let slots = slots.iter();
+            slots
+                .map(|slot| (slot.name.to_string(), slot.label()))
+                .collect()
+        };
+        Known {
+            parameters: slots(&program.parameters),
+            inputs: slots(&program.inputs),
+            outputs: slots(&program.outputs),
+            coordinates: machine
+                .prepare()
+                .coordinates()
+                .map(|q| (q.name.to_owned(), q.unit.to_owned()))
+                .collect(),
+        }
+    }
+
+    fn start(&self, k: usize) -> Variation {
+        let (name, unit) = &self.coordinates[k];
+        Variation {
+            by: By::Start(k),
+            name: format!("start({name})"),
+            unit: unit.clone(),
+        }
+    }
+
+    fn start_rate(&self, k: usize) -> Variation {
+        let (name, unit) = &self.coordinates[k];
+        Variation {
+            by: By::StartRate(k),
+            name: format!("rate({name})"),
+            unit: rate_unit(name, unit),
+        }
+    }
+
+    /// The start of a state, which is the rate of its integral.
+    fn start_of_state(&self, k: usize) -> Variation {
+        let (name, unit) = &self.coordinates[k];
+        Variation {
+            by: By::StartRate(k),
+            name: format!("start({})", rate_name(name, "")),
+            unit: rate_unit(name, unit),
+        }
+    }
+
+    /// The parameters and inputs of this name, or the members of the family of this name.
+    fn constants(&self, name: &str) -> impl Iterator<Item = Variation> {
+        let lists = [
+            (&self.parameters, By::Parameter as fn(usize) -> By),
+            (&self.inputs, By::Input),
+        ];
+        lists.into_iter().flat_map(move |(list, by)| {
+            named(list, name).map(move |k| Variation {
+                by: by(k),
+                name: list[k].0.clone(),
+                unit: list[k].1.clone(),
+            })
+        })
+    }
+
+    /// What one word of `--by` names.
+    fn variations(&self, name: &str, start: &State<Named>) -> Vec<Variation> {
+        let inner = |function: &str| {
+            let inner = name.strip_prefix(function)?.strip_prefix('(')?;
+            Some(inner.strip_suffix(')')?.trim())
+        };
+        let state = inner("start").map(integral_name);
+        let of_state = state.map_or_else(Vec::new, |integral| places(&start.q, &integral));
+        if !of_state.is_empty() {
+            let all = of_state.into_iter().map(|k| self.start_of_state(k));
+            return all.collect();
+        }
+        if let Some(coordinate) = inner("start").filter(|name| !is_integral(name)) {
+            let all = places(&start.q, coordinate).into_iter();
+            return all.map(|k| self.start(k)).collect();
+        }
+        if let Some(coordinate) = inner("rate").filter(|name| !is_integral(name)) {
+            let all = places(&start.q, coordinate).into_iter();
+            return all.map(|k| self.start_rate(k)).collect();
+        }
+        self.constants(name).collect()
+    }
+
+    fn coordinate(&self, k: usize) -> Observed {
+        let (name, unit) = &self.coordinates[k];
+        Observed {
+            of: Of::Coordinate(k),
+            name: name.clone(),
+            unit: unit.clone(),
+        }
+    }
+
+    fn rate(&self, k: usize) -> Observed {
+        let (name, unit) = &self.coordinates[k];
+        Observed {
+            of: Of::Rate(k),
+            name: rate_name(name, ""),
+            unit: rate_unit(name, unit),
+        }
+    }
+
+    fn output(&self, k: usize) -> Observed {
+        let (name, unit) = &self.outputs[k];
+        Observed {
+            of: Of::Output(k),
+            name: name.clone(),
+            unit: unit.clone(),
+        }
+    }
+
+    /// What is observed where nothing is named: the outputs, or the coordinates of a machine without any. Of a state the state itself
+    /// is shown, not its integral, on which nothing depends.
+    fn observed_by_default(&self) -> Vec<Observed> {
+        if !self.outputs.is_empty() {
+            let all = 0..self.outputs.len();
+            return all.map(|k| self.output(k)).collect();
+        }
+        let shown = |k: usize| {
+            if is_integral(&self.coordinates[k].0) {
+                self.rate(k)
+            } else {
+                self.coordinate(k)
+            }
+        };
+        (0..self.coordinates.len()).map(shown).collect()
+    }
+
+    /// What one word of `--of` names.
+    fn observed(&self, name: &str, start: &State<Named>) -> Vec<Observed> {
+        let outputs: Vec<Observed> = named(&self.outputs, name).map(|k| self.output(k)).collect();
+        if !outputs.is_empty() {
+            return outputs;
+        }
+        let rates = |of: &str| places(&start.q, of).into_iter().map(|k| self.rate(k));
+        let inner = name.strip_prefix("der(");
+        if let Some(inner) = inner.and_then(|inner| inner.strip_suffix(')')) {
+            return rates(inner.trim()).collect();
+        }
+        let coordinates = places(&start.q, name).into_iter();
+        rates(&integral_name(name))
+            .chain(coordinates.map(|k| self.coordinate(k)))
+            .collect()
+    }
+}
+
+/// The places of the entries of this name, or of the members of the family of this name.
+fn named(list: &[(String, String)], name: &str) -> impl Iterator<Item = usize> {
+    let member = format!("{name}[");
+    let is_meant = move |known: &str| known == name || known.starts_with(&member);
+    (0..list.len()).filter(move |k| is_meant(&list[*k].0))
+}
+
+/// The error of an option that names nothing, with the name that was probably meant; `what` it could have named.
+fn no_such(option: &str, name: &str, what: &str, known: &[String]) -> Failure {
+    let help = help_with(name, known.iter().map(String::as_str));
+    Failure::Call(format!("{option} {name}: no {what} of that name; {help}"))
+}
+
 /// The variables that `--by` names.
 pub(super) fn variations(
     (model, machine): (&Model<'_>, &InterpretedMachine),
     start: &State<Named>,
     wanted: &[String],
 ) -> Result<Vec<Variation>, Failure> {
-    let program = machine.program();
-    let slots = |slots: &[lagrangian_program::Slot]| -> Vec<(String, String)> {
-        let slots = slots.iter();
-        slots
-            .map(|slot| (slot.name.to_string(), slot.label()))
-            .collect()
-    };
-    let (parameters, inputs) = (slots(&program.parameters), slots(&program.inputs));
-    let coordinates: Vec<(String, String)> = {
-        let system = machine.prepare();
-        let coordinates = system.coordinates();
-        coordinates
-            .map(|q| (q.name.to_owned(), q.unit.to_owned()))
-            .collect()
-    };
+    let known = Known::of(machine);
     let mut all = Vec::new();
     for name in wanted {
-        let before = all.len();
-        let inner = |function: &str| {
-            let inner = name.strip_prefix(function)?.strip_prefix('(')?;
-            Some(inner.strip_suffix(')')?.trim())
-        };
-        let member = format!("{name}[");
-        let is_meant = |known: &str| known == name || known.starts_with(&member);
-        let state = inner("start").map(integral_name);
-        let of_state = state.map_or_else(Vec::new, |integral| places(&start.q, &integral));
-        if !of_state.is_empty() {
-            // A state is the rate of its integral.
-            all.extend(of_state.into_iter().map(|k| Variation {
-                by: By::StartRate(k),
-                name: format!("start({})", shown_rate(&coordinates[k].0)),
-                unit: unit::rate_unit(&coordinates[k].0, &coordinates[k].1),
-            }));
-        } else if let Some(coordinate) = inner("start").filter(|name| !is_integral(name)) {
-            all.extend(places(&start.q, coordinate).into_iter().map(|k| Variation {
-                by: By::Start(k),
-                name: format!("start({})", coordinates[k].0),
-                unit: coordinates[k].1.clone(),
-            }));
-        } else if let Some(coordinate) = inner("rate").filter(|name| !is_integral(name)) {
-            all.extend(places(&start.q, coordinate).into_iter().map(|k| Variation {
-                by: By::StartRate(k),
-                name: format!("rate({})", coordinates[k].0),
-                unit: rate_unit(&coordinates[k].1),
-            }));
-        } else {
-            let of_list = |list: &[(String, String)], by: fn(usize) -> By| -> Vec<Variation> {
-                let list = list
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, (of_list, _))| is_meant(of_list));
-                list.map(|(k, (name, unit))| Variation {
-                    by: by(k),
-                    name: name.clone(),
-                    unit: unit.clone(),
-                })
-                .collect()
-            };
-            all.extend(of_list(&parameters, By::Parameter));
-            all.extend(of_list(&inputs, By::Input));
-        }
-        if all.len() == before
+        let meant = known.variations(name, start);
+        if meant.is_empty()
             && let Some(others) = followed(model, name)
         {
             return Err(Failure::Call(format!(
@@ -145,28 +257,17 @@ pub(super) fn variations(
                 others.join(", ")
             )));
         }
-        if all.len() == before {
-            let known: Vec<String> = parameters
-                .iter()
-                .chain(&inputs)
-                .map(|(name, _)| name.clone())
-                .chain(
-                    coordinates
-                        .iter()
-                        .flat_map(|(name, _)| match state_of(name) {
-                            Some(state) => vec![format!("start({state})")],
-                            None => vec![format!("start({name})"), format!("rate({name})")],
-                        }),
-                )
-                .collect();
-            let help = match most_similar(name, known.iter().map(String::as_str)) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("there are: {}", known.join(", ")),
-            };
-            return Err(Failure::Call(format!(
-                "--by {name}: no parameter, input or start of that name; {help}"
-            )));
+        if meant.is_empty() {
+            let constants = known.parameters.iter().chain(&known.inputs);
+            let constants = constants.map(|(name, _)| name.clone());
+            let starts = (known.coordinates.iter()).flat_map(|(name, _)| match state_of(name) {
+                Some(state) => vec![format!("start({state})")],
+                None => vec![format!("start({name})"), format!("rate({name})")],
+            });
+            let known: Vec<String> = constants.chain(starts).collect();
+            return Err(no_such("--by", name, "parameter, input or start", &known));
         }
+        all.extend(meant);
     }
     call::refuse_twice("--by", all.iter().map(|one| one.name.as_str())).map_err(Failure::Call)?;
     Ok(all)
@@ -178,95 +279,24 @@ pub(super) fn observed(
     start: &State<Named>,
     lists: &[String],
 ) -> Result<Vec<Observed>, Failure> {
-    let system = machine.prepare();
-    let coordinates: Vec<(String, String)> = system
-        .coordinates()
-        .map(|q| (q.name.to_owned(), q.unit.to_owned()))
-        .collect();
-    let outputs: Vec<(String, String)> = machine
-        .program()
-        .outputs
-        .iter()
-        .map(|slot| (slot.name.to_string(), slot.label()))
-        .collect();
-    let coordinate = |k: usize| Observed {
-        of: Of::Coordinate(k),
-        name: coordinates[k].0.clone(),
-        unit: coordinates[k].1.clone(),
-    };
-    let rate = |k: usize| Observed {
-        of: Of::Rate(k),
-        name: shown_rate(&coordinates[k].0),
-        unit: if is_integral(&coordinates[k].0) {
-            unit::rate_unit(&coordinates[k].0, &coordinates[k].1)
-        } else {
-            rate_unit(&coordinates[k].1)
-        },
-    };
-    // The state itself is shown, not its integral, on which nothing depends.
-    let shown = |k: usize| {
-        if is_integral(&coordinates[k].0) {
-            rate(k)
-        } else {
-            coordinate(k)
-        }
-    };
-    let output = |k: usize| Observed {
-        of: Of::Output(k),
-        name: outputs[k].0.clone(),
-        unit: outputs[k].1.clone(),
-    };
+    let known = Known::of(machine);
     let wanted = call::names_of(lists).map_err(Failure::Call)?;
     if wanted.is_empty() {
-        return Ok(if outputs.is_empty() {
-            (0..coordinates.len()).map(shown).collect()
-        } else {
-            (0..outputs.len()).map(output).collect()
-        });
+        return Ok(known.observed_by_default());
     }
     let mut all = Vec::new();
     for name in &wanted {
-        let before = all.len();
-        let member = format!("{name}[");
-        let matching = (0..outputs.len()).filter(|k| {
-            let output_name = &outputs[*k].0;
-            output_name == name || output_name.starts_with(&member)
-        });
-        all.extend(matching.map(output));
-        if all.len() == before {
-            match name
-                .strip_prefix("der(")
-                .and_then(|inner| inner.strip_suffix(')'))
-            {
-                Some(inner) => all.extend(places(&start.q, inner.trim()).into_iter().map(rate)),
-                None => {
-                    let states = places(&start.q, &integral_name(name));
-                    all.extend(states.into_iter().map(rate));
-                    all.extend(places(&start.q, name).into_iter().map(coordinate));
-                }
-            }
+        let meant = known.observed(name, start);
+        if meant.is_empty() {
+            let outputs = known.outputs.iter().map(|(name, _)| name.clone());
+            let motion = (known.coordinates.iter()).flat_map(|(name, _)| match state_of(name) {
+                Some(state) => vec![state],
+                None => vec![name.clone(), format!("der({name})")],
+            });
+            let known: Vec<String> = outputs.chain(motion).collect();
+            return Err(no_such("--of", name, "coordinate, rate or output", &known));
         }
-        if all.len() == before {
-            let known: Vec<String> = outputs
-                .iter()
-                .map(|(name, _)| name.clone())
-                .chain(
-                    coordinates
-                        .iter()
-                        .flat_map(|(name, _)| match state_of(name) {
-                            Some(state) => vec![state],
-                            None => vec![name.clone(), format!("der({name})")],
-                        }),
-                )
-                .collect();
-            let help = match most_similar(name, known.iter().map(String::as_str)) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("there are: {}", known.join(", ")),
-            };
-            return Err(Failure::Call(format!(
-                "--of {name}: no coordinate, rate or output of that name; {help}"
-            )));
-        }
+        all.extend(meant);
     }
     call::refuse_twice("--of", all.iter().map(|one| one.name.as_str())).map_err(Failure::Call)?;
     Ok(all)
@@ -275,19 +305,6 @@ pub(super) fn observed(
 /// Whether a coordinate is the integral of a state of first order.
 pub(super) fn is_integral(coordinate: &str) -> bool {
     state_of(coordinate).is_some()
-}
-
-/// The name of the rate of a coordinate: `der(x)`, or the name of a state.
-pub(super) fn shown_rate(coordinate: &str) -> String {
-    state_of(coordinate).unwrap_or_else(|| format!("der({coordinate})"))
-}
-
-/// The unit of the rate of a quantity with this unit.
-pub(super) fn rate_unit(unit: &str) -> String {
-    match unit {
-        "1" => "1/s".to_owned(),
-        unit => format!("{unit}/s"),
-    }
 }
 
 /// The quotient of two units.

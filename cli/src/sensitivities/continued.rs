@@ -32,15 +32,11 @@ pub(super) fn run(
         .map(|chart| chart.turns((call, method), from))
         .transpose()?;
     let n = machine.program().dimension();
-    let all = |list: &Varied<Named>| -> Vec<f64> {
-        let by = list.by.iter().zip(&sizes);
-        let by = by.flat_map(|(by, size)| by.values.iter().map(move |by| by * size));
-        list.value.values.iter().copied().chain(by).collect()
-    };
+    let scaled = Scaled { n, sizes: &sizes };
     let mut start = State {
         t: from.t,
-        q: all(&from.q),
-        v: all(&from.v),
+        q: scaled.join(&from.q),
+        v: scaled.join(&from.v),
     };
     charts::to_cartesian(points, n, [&mut start.q, &mut start.v]);
     let signals = Signals::default();
@@ -53,29 +49,13 @@ pub(super) fn run(
         until: call.until,
         most_steps: call.max_steps,
     };
-    let failed = |error: lagrangian::Error| Failure::Run(verdict::message_of(&error));
-    let run = across::run(&wanted, &start).map_err(|why| match why {
-        NoDerivatives::Run(error) => failed(error),
-        // The run itself may continue where its derivatives do not.
-        broken => Failure::Run(format!(
-            "{broken}; use differences of runs instead, by `lagrangian compare` with `--set-second`, or by `lagrangian sweep`"
-        )),
-    })?;
+    let run = across::run(&wanted, &start).map_err(no_derivatives)?;
     let like = machine.start().q;
-    let split = |list: &[f64]| Varied {
-        value: with_values(&like, &list[..n]),
-        by: (list[n..].chunks(n).zip(&sizes))
-            .map(|(by, size)| {
-                let by: Vec<f64> = by.iter().map(|by| by / size).collect();
-                with_values(&like, &by)
-            })
-            .collect(),
-    };
     let end = run.end();
     let [begun, end] = [&start, end].map(|state| State {
         t: state.t,
-        q: split(&state.q),
-        v: split(&state.v),
+        q: scaled.split(&state.q, &like),
+        v: scaled.split(&state.v, &like),
     });
     if machine.prepare().constraints().len() > 0 {
         check_drift(machine, &end, variations)?;
@@ -87,49 +67,88 @@ pub(super) fn run(
     for t in &times {
         let State { q, v, .. } = run.at(*t).map_err(failed)?;
         let there = run.observe(*t, (&q, &v)).map_err(failed)?;
-        let u = &there.inputs.own.values;
         let (mut by_q, mut by_v) = (q.clone(), v.clone());
         charts::to_polar(points, n, [&mut by_q, &mut by_v]);
         let (mut own_q, mut own_v) = (q[..n].to_vec(), v[..n].to_vec());
         if let Some(turns) = &turns {
             turns.to_polar(*t, &mut own_q, &mut own_v);
         }
-        let without_derivatives = |list: &Vec<f64>| list[..n].to_vec();
         let value = |observed: &Observed| match observed.of {
             Of::Coordinate(i) => own_q[i],
             Of::Rate(i) => own_v[i],
-            Of::Output(i) => system.output(
-                i,
-                *t,
-                &without_derivatives(&q),
-                &without_derivatives(&v),
-                &without_derivatives(&there.a),
-                u,
-            ),
+            Of::Output(i) => {
+                let [q, v, a] = [&q, &v, &there.a].map(|list| list[..n].to_vec());
+                system.output(i, *t, &q, &v, &a, &there.inputs.own.values)
+            }
         };
-        let by = |observed: &Observed| -> Vec<f64> {
-            let part = |list: &[f64], i: usize| list[n..].chunks(n).map(|by| by[i]).collect();
-            let scaled: Vec<f64> = match observed.of {
-                Of::Coordinate(i) => part(&by_q, i),
-                Of::Rate(i) => part(&by_v, i),
-                Of::Output(i) => (there.system).output(i, *t, [&q, &v, &there.a], &there.inputs),
-            };
-            scaled
-                .iter()
-                .zip(&sizes)
-                .map(|(by, size)| by / size)
-                .collect()
+        let by = |observed: &Observed| match observed.of {
+            Of::Coordinate(i) => scaled.derivatives(&by_q, i),
+            Of::Rate(i) => scaled.derivatives(&by_v, i),
+            Of::Output(i) => {
+                let by = (there.system).output(i, *t, [&q, &v, &there.a], &there.inputs);
+                scaled.in_units(&by)
+            }
         };
-        let row = observed
-            .iter()
-            .map(value)
-            .chain(observed.iter().flat_map(by));
-        let row: Vec<f64> = row.collect();
+        let row = (observed.iter().map(value)).chain(observed.iter().flat_map(by));
         for (column, value) in columns.iter_mut().zip(row) {
             column.values.push(value);
         }
     }
     Ok((times, columns))
+}
+
+/// The failure of a run with derivatives, which may itself continue where its derivatives do not.
+fn no_derivatives(why: NoDerivatives) -> Failure {
+    match why {
+        NoDerivatives::Run(error) => failed(error),
+        broken => Failure::Run(format!(
+            "{broken}; use differences of runs instead, by `lagrangian compare` with `--set-second`, or by `lagrangian sweep`"
+        )),
+    }
+}
+
+fn failed(error: lagrangian::Error) -> Failure {
+    Failure::Run(verdict::message_of(&error))
+}
+
+/// Lists of `n` numbers, followed by their derivatives by each variable scaled to size 1.
+struct Scaled<'s> {
+    n: usize,
+    /// The sizes of the variables, in their units.
+    sizes: &'s [f64],
+}
+
+impl Scaled<'_> {
+    fn join(&self, list: &Varied<Named>) -> Vec<f64> {
+        let by = list.by.iter().zip(self.sizes);
+        let by = by.flat_map(|(by, size)| by.values.iter().map(move |by| by * size));
+        list.value.values.iter().copied().chain(by).collect()
+    }
+
+    /// The numbers under the names of `like`, with their derivatives by the variables in their units.
+    fn split(&self, list: &[f64], like: &Named) -> Varied<Named> {
+        let by = list[self.n..].chunks(self.n).zip(self.sizes);
+        let by = by.map(|(by, size)| {
+            let by: Vec<f64> = by.iter().map(|by| by / size).collect();
+            with_values(like, &by)
+        });
+        Varied {
+            value: with_values(like, &list[..self.n]),
+            by: by.collect(),
+        }
+    }
+
+    /// The derivatives of a number of a list, by the variables in their units.
+    fn derivatives(&self, list: &[f64], i: usize) -> Vec<f64> {
+        let scaled: Vec<f64> = list[self.n..].chunks(self.n).map(|by| by[i]).collect();
+        self.in_units(&scaled)
+    }
+
+    /// Derivatives by the scaled variables as those by the variables in their units.
+    fn in_units(&self, scaled: &[f64]) -> Vec<f64> {
+        let by = scaled.iter().zip(self.sizes);
+        by.map(|(by, size)| by / size).collect()
+    }
 }
 
 /// The instants of the rows: at equal intervals from the start, and the end.

@@ -1,4 +1,4 @@
-//! What a sweep keeps of each motion: `--record`, `--reduce`.
+//! The results of each motion that a sweep keeps: `--record`, `--reduce`.
 
 use lagrangian::ContactEventKind;
 use lagrangian_sweep::plan::{Function, Reduction, Watch};

@@ -442,3 +442,36 @@ fn a_gap_far_from_the_origin_closes_where_it_does() {
         close(number(&impacts[0]["t"]), 0.9, bound);
     }
 }
+
+/// A ball in a round bowl falls onto its ground and bounces until it rests, and does the same wherever the origin of the coordinates is. The rows of
+/// its gap are no weaker for that: the gap of 2 m turns over 2 m, not over the 4000 km to the origin.
+#[test]
+fn bounces_far_from_the_origin_end_as_there() {
+    let bowl = |far: f64| {
+        Scratch::new(
+            "bowl.machine",
+            &format!(
+                "machine Bowl in plane {{
+                    coordinates {{ x: m = {far:?}, y: m = 0.5 }}
+                    bodies {{ ball {{ mass: 1, at: (x, y) }} }}
+                    contacts {{ bowl {{ gap: 2*m - sqrt((x - {far:?}*m)^2 + (y - 1.5*m)^2), restitution: 0.5 }} }}
+                    gravity (0, -9.81);
+                }}"
+            ),
+        )
+    };
+    let of = |run: &Value, far: f64| {
+        let closed = events(run, "closes");
+        assert_eq!(closed.len(), 1, "at {far:e} m: {:#?}", run["error"]);
+        number(&closed[0]["t"])
+    };
+    // Falling from 1 m above the ground, with bounces of half the rate, it rests after 3 times the time of the fall.
+    let fall = f64::sqrt(2.0 / 9.81);
+    for far in [0.0, 4e3, 40_000.5, 4_000_000.5] {
+        let run = simulate(bowl(far).path(), 2.0, &[]);
+        close(of(&run, far), 3.0 * fall, 1e-6);
+        close(number(&run["q"]["y"]), -0.5, 1e-12);
+        close(number(&run["v"]["y"]), 0.0, 1e-12);
+        close(number(&run["dissipated"]), 9.81, 1e-10);
+    }
+}

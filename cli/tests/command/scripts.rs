@@ -220,6 +220,9 @@ fn the_crusher_over_speed_is_the_crusher_at_each_speed() {
         "omega=60",
         "--until",
         "4",
+        // The motion amplifies errors by a thousand in each second, so that only the run of the row itself will do.
+        "--one-of",
+        "2",
         "--every",
         "0.0002",
         "--out",

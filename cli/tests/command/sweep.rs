@@ -227,7 +227,8 @@ fn rows_are_those_of_simulate_in_every_bit() {
         let theta = format!("theta1={}", rows["start(theta1)"][run]);
         let mass = format!("m2={}", rows["m2"][run]);
         let output = lagrangian(&[
-            "simulate", spec, "--until", "2", "--json", "--start", &theta, "--set", &mass,
+            "simulate", spec, "--until", "2", "--one-of", "80", "--json", "--start", &theta,
+            "--set", &mass,
         ]);
         let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
         for (name, value) in [
@@ -282,6 +283,8 @@ fn rows_of_long_and_of_stiff_runs_are_those_of_simulate() {
             "150",
             "--tolerance",
             "1e-12",
+            "--one-of",
+            "9",
             "--json",
             "--start",
             &theta,
@@ -337,6 +340,69 @@ fn rows_of_long_and_of_stiff_runs_are_those_of_simulate() {
     assert!(!read(&at("given.csv")).contains_key("methods"));
 }
 
+/// Runs that are too short for a series each share its derivation: all of them go by series from the start if they are many, whatever chunk they are made
+/// in and when. Each is the run that `simulate` makes as one of so many, and that by series, in every bit.
+#[test]
+fn many_short_runs_share_the_derivation_of_the_series() {
+    let spec = "machines/double_pendulum.machine";
+    let folder = Scratch::new("a", "");
+    let at = |name: &str| folder.0.with_file_name(name);
+    let design = ["--until", "1", "--vary", "start(theta1)=0.2..0.6:4000"];
+    let out = at("rows.csv");
+    // In two calls, with one thread and with two.
+    let said = sweep(
+        spec,
+        &out,
+        &[&design[..], &["--limit", "300", "--threads", "1"]].concat(),
+    );
+    assert_eq!(said.status, 0, "{}", said.error);
+    let said = sweep(spec, &out, &[&design[..], &["--threads", "2"]].concat());
+    assert_eq!(said.status, 0, "{}", said.error);
+    assert!(said.out.contains("  taylor: 4000 runs"), "{}", said.out);
+    let rows = read(&out);
+    assert!(rows["methods"].iter().all(|methods| methods == "taylor"));
+    for run in [0, 137, 3999] {
+        let theta = format!("theta1={}", rows["start(theta1)"][run]);
+        for further in [&["--one-of", "4000"], &["--method", "taylor"]] {
+            let call = [
+                "simulate", spec, "--until", "1", "--json", "--start", &theta,
+            ];
+            let output = lagrangian(&[&call, &further[..]].concat());
+            let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+            for (name, value) in [
+                ("theta2", &document["q"]["theta2"]),
+                ("der(theta1)", &document["v"]["theta1"]),
+                ("steps", &document["steps"]),
+            ] {
+                let value = value.as_f64().expect("a number");
+                assert_eq!(
+                    numbers(&rows, name)[run],
+                    value,
+                    "{name} of run {run}, {further:?}"
+                );
+            }
+        }
+    }
+    // One run of these stays with the usual method, and others do not choose.
+    let alone = lagrangian(&["simulate", spec, "--until", "1", "--json"]);
+    let document: Value = serde_json::from_slice(&alone.stdout).expect("JSON");
+    assert_eq!(document["methods"][0]["method"], "dop853", "{document:#}");
+    for wrong in [
+        &["--one-of", "9", "--method", "taylor"][..],
+        &["--one-of", "9", "--precision", "dd"],
+        &["--one-of", "9", "--validated"],
+        &["--one-of", "0"],
+        &["--one-of", "1.5"],
+    ] {
+        let output = lagrangian(&[&["simulate", spec, "--until", "1"], wrong].concat());
+        let error = String::from_utf8(output.stderr).expect("text");
+        assert!(
+            !output.status.success() && error.contains("--one-of"),
+            "{wrong:?}: {error}"
+        );
+    }
+}
+
 /// Machines with friction, constraints and collisions use the same code path.
 #[test]
 fn every_kind_of_machine_is_swept_as_it_is_simulated() {
@@ -360,7 +426,7 @@ fn every_kind_of_machine_is_swept_as_it_is_simulated() {
             let given = format!("{name}={value}");
             let option = format!("--{option}");
             let output = lagrangian(&[
-                "simulate", spec, "--until", "0.7", "--json", &option, &given,
+                "simulate", spec, "--until", "0.7", "--one-of", "2", "--json", &option, &given,
             ]);
             let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
             assert_eq!(

@@ -174,26 +174,7 @@ pub fn minimize(
     bounds: &[[f64; 2]],
     options: &Options,
 ) -> Result<Minimum, Trouble> {
-    let x: Vec<f64> = start
-        .iter()
-        .zip(bounds)
-        .map(|(x, [low, high])| x.max(*low).min(*high))
-        .collect();
-    let residuals = problem.residuals(&x)?;
-    if residuals.iter().any(|r| !r.is_finite()) {
-        return Err(Trouble::NoValue("a residual is not finite".into()));
-    }
-    let jacobian = problem.jacobian(&x)?;
-    let mut at = Minimum {
-        sums: vec![squares(&residuals)],
-        x,
-        residuals,
-        jacobian,
-        ending: Ending::TooManySteps,
-        steps: 0,
-        evaluations: 1,
-        derivatives: 1,
-    };
+    let mut at = begin(problem, start, bounds)?;
     let mut scale = vec![0.0; at.x.len()];
     grow(&mut scale, &at.jacobian);
     let mut radius = options.first_radius * length(&scale, &at.x);
@@ -225,42 +206,30 @@ pub fn minimize(
         } else {
             step(&at, &free, bounds, &scale, radius, options.derivatives)
         };
-        let trial: Vec<f64> = (0..at.x.len())
-            .map(|j| (at.x[j] + step[j]).clamp(bounds[j][0], bounds[j][1]))
-            .collect();
+        let moved = at.x.iter().zip(step.iter()).zip(bounds);
+        let moved = moved.map(|((x, step), [low, high])| (x + step).clamp(*low, *high));
+        let trial: Vec<f64> = moved.collect();
         let taken = length(&scale, step.as_slice());
         if is_first {
             radius = radius.min(taken);
         }
-        let residuals = match problem.residuals(&trial) {
-            Err(Trouble::NoValue(_)) => None,
-            tried => Some(tried?).filter(|all| all.iter().all(|r| r.is_finite())),
-        };
+        let residuals = tried(problem, &trial)?;
         at.evaluations += 1;
-        let promised = promise(&at, &step);
-        let ratio = match &residuals {
-            Some(new) if promised > 0.0 => reduction(&at.residuals, new) / promised,
-            _ => f64::NEG_INFINITY,
-        };
+        let ratio = ratio(&at, &step, residuals.as_deref());
         let is_still = taken <= options.step * length(&scale, &trial) || taken == 0.0;
         if is_still || is_level {
-            let ending = if is_still {
-                Ending::Step
-            } else {
-                Ending::Reduction
-            };
             let next = match residuals {
                 Some(residuals) => after_step(problem, &at, trial, residuals)?,
                 None => at.clone(),
             };
             let free = self::free(&next, bounds);
             let better = self::offset(&next, &free, &scale, options.derivatives);
-            let is_nearer = match (better, offset) {
-                (Some(better), Some(offset)) => better <= CLOSER * offset,
-                _ => false,
-            };
-            if !is_nearer {
-                at.ending = ending;
+            if !is_nearer(better, offset) {
+                at.ending = if is_still {
+                    Ending::Step
+                } else {
+                    Ending::Reduction
+                };
                 return Ok(at);
             }
             at = next;
@@ -276,6 +245,56 @@ pub fn minimize(
         }
     }
     Ok(at)
+}
+
+/// The search at its start, moved to within the bounds.
+fn begin(
+    problem: &mut dyn Problem,
+    start: &[f64],
+    bounds: &[[f64; 2]],
+) -> Result<Minimum, Trouble> {
+    let x: Vec<f64> = start
+        .iter()
+        .zip(bounds)
+        .map(|(x, [low, high])| x.max(*low).min(*high))
+        .collect();
+    let residuals = problem.residuals(&x)?;
+    if residuals.iter().any(|r| !r.is_finite()) {
+        return Err(Trouble::NoValue("a residual is not finite".into()));
+    }
+    let jacobian = problem.jacobian(&x)?;
+    Ok(Minimum {
+        sums: vec![squares(&residuals)],
+        x,
+        residuals,
+        jacobian,
+        ending: Ending::TooManySteps,
+        steps: 0,
+        evaluations: 1,
+        derivatives: 1,
+    })
+}
+
+/// The residuals of a trial, if all of them are numbers.
+fn tried(problem: &mut dyn Problem, trial: &[f64]) -> Result<Option<Vec<f64>>, Trouble> {
+    match problem.residuals(trial) {
+        Err(Trouble::NoValue(_)) => Ok(None),
+        tried => Ok(Some(tried?).filter(|all| all.iter().all(|r| r.is_finite()))),
+    }
+}
+
+/// Whether an offset from the minimum is so much less than the one before that the step is accepted without a lower sum.
+fn is_nearer(now: Option<f64>, before: Option<f64>) -> bool {
+    matches!((now, before), (Some(now), Some(before)) if now <= CLOSER * before)
+}
+
+/// The reduction by a step relative to the one that the linear model predicts; `-∞` where it predicts none, or there are no residuals.
+fn ratio(at: &Minimum, step: &DVector<f64>, residuals: Option<&[f64]>) -> f64 {
+    let promised = promise(at, step);
+    match residuals {
+        Some(new) if promised > 0.0 => reduction(&at.residuals, new) / promised,
+        _ => f64::NEG_INFINITY,
+    }
 }
 
 /// By how much half the sum of squares falls, as a sum of factored differences, which avoids cancellation between the sums.

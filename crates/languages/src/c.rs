@@ -1,5 +1,6 @@
 //! C: one file for one machine, plain C99 over `double`, with the same operations in the same order as the Rust code.
 
+mod reserved;
 pub mod uniform;
 
 use std::collections::BTreeMap;
@@ -19,113 +20,7 @@ use lagrangian_program::{
     EliminationStep, Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source,
 };
 use lagrangian_units::{rate_unit, state_of};
-
-/// Keywords of C, the functions of its library that the code calls, and macros.
-const RESERVED: &[&str] = &[
-    "auto",
-    "break",
-    "case",
-    "char",
-    "const",
-    "continue",
-    "default",
-    "do",
-    "double",
-    "else",
-    "enum",
-    "extern",
-    "float",
-    "for",
-    "goto",
-    "if",
-    "inline",
-    "int",
-    "long",
-    "register",
-    "restrict",
-    "return",
-    "short",
-    "signed",
-    "sizeof",
-    "static",
-    "struct",
-    "switch",
-    "typedef",
-    "union",
-    "unsigned",
-    "void",
-    "volatile",
-    "while",
-    "bool",
-    "true",
-    "false",
-    "sin",
-    "cos",
-    "tan",
-    "asin",
-    "acos",
-    "atan",
-    "atan2",
-    "sinh",
-    "cosh",
-    "tanh",
-    "exp",
-    "log",
-    "sqrt",
-    "fabs",
-    "fmin",
-    "fmax",
-    "pow",
-    "fma",
-    "sign",
-    "sum_error",
-    "p",
-    "t",
-    "q",
-    "v",
-    "a",
-    "at",
-    "u",
-    "to",
-    "self",
-    "singular",
-    "NAN",
-    "INFINITY",
-    // Macros of <math.h> in C99 and POSIX and of GNU's dialect, and those of other headers that a program is likely to include.
-    "M_E",
-    "M_LOG2E",
-    "M_LOG10E",
-    "M_LN2",
-    "M_LN10",
-    "M_PI",
-    "M_PI_2",
-    "M_PI_4",
-    "M_1_PI",
-    "M_2_PI",
-    "M_2_SQRTPI",
-    "M_SQRT2",
-    "M_SQRT1_2",
-    "HUGE_VAL",
-    "HUGE_VALF",
-    "HUGE_VALL",
-    "FP_INFINITE",
-    "FP_NAN",
-    "FP_NORMAL",
-    "FP_SUBNORMAL",
-    "FP_ZERO",
-    "FP_FAST_FMA",
-    "FP_FAST_FMAF",
-    "FP_FAST_FMAL",
-    "FP_ILOGB0",
-    "FP_ILOGBNAN",
-    "MATH_ERRNO",
-    "MATH_ERREXCEPT",
-    "math_errhandling",
-    "unix",
-    "linux",
-    "NULL",
-    "errno",
-];
+use reserved::RESERVED;
 
 /// The text of the file. `origin` holds lines for its head, `formulas` those that comments show.
 pub fn file(program: &Proved, origin: &[String], formulas: &BTreeMap<Role, Vec<String>>) -> String {
@@ -435,31 +330,7 @@ impl<'a> Emitter<'a> {
                 .map(|text| text.text)
                 .collect(),
         };
-        match function.shape {
-            Shape::Scalar => writer.line(format!("return {};", texts[0])),
-            Shape::Vector(_) => {
-                for (i, text) in texts.iter().enumerate() {
-                    writer.line(format!("to[{i}] = {text};"));
-                }
-                if inverts {
-                    writer.line("return 0;");
-                }
-            }
-            Shape::Symmetric(n) => {
-                for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-                    writer.line(format!("to[{i}][{j}] = {};", texts[Shape::index(i, j)]));
-                }
-            }
-            Shape::Matrix(_, columns) => {
-                for (index, text) in texts.iter().enumerate() {
-                    let (i, j) = (index / columns, index % columns);
-                    writer.line(format!("to[{i}][{j}] = {text};"));
-                }
-                if inverts {
-                    writer.line("return 0;");
-                }
-            }
-        }
+        write_results(writer, function.shape, &texts, inverts);
         writer.close("}");
     }
 
@@ -818,4 +689,33 @@ fn paths(slots: &[Slot]) -> Vec<String> {
         field.ident = name;
     }
     names::paths(&groups)
+}
+
+/// Writes where the results of a function go, and that it succeeds, if it may fail.
+fn write_results(writer: &mut Writer, shape: Shape, texts: &[String], may_fail: bool) {
+    match shape {
+        Shape::Scalar => writer.line(format!("return {};", texts[0])),
+        Shape::Vector(_) => {
+            for (i, text) in texts.iter().enumerate() {
+                writer.line(format!("to[{i}] = {text};"));
+            }
+            if may_fail {
+                writer.line("return 0;");
+            }
+        }
+        Shape::Symmetric(n) => {
+            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                writer.line(format!("to[{i}][{j}] = {};", texts[Shape::index(i, j)]));
+            }
+        }
+        Shape::Matrix(_, columns) => {
+            for (index, text) in texts.iter().enumerate() {
+                let (i, j) = (index / columns, index % columns);
+                writer.line(format!("to[{i}][{j}] = {text};"));
+            }
+            if may_fail {
+                writer.line("return 0;");
+            }
+        }
+    }
 }

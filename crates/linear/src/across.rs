@@ -198,6 +198,15 @@ pub fn run<'m>(wanted: &Wanted<'m>, start: &State<Vec<f64>>) -> Result<Across<'m
             why: "is between two polygons, for which there are no derivatives where a corner reaches the end of a face",
         });
     }
+    let contacts = system.unilateral_contacts();
+    let guides = contacts.len() - system.guides();
+    if let Some(guide) = system.unilateral_contacts().nth(guides) {
+        return Err(NoDerivatives::Broken {
+            t: start.t,
+            contact: guide.name.to_owned(),
+            why: "is a guide beside contacts, for which there are no derivatives",
+        });
+    }
     let n = system.coordinates().len();
     let mut own = machine.start();
     own.t = start.t;

@@ -1,7 +1,7 @@
 //! Derivatives of motions in the two charts of a machine with polar coordinates.
 //!
 //! A motion in Cartesian coordinates is continued with its derivatives through the centre, where polar coordinates have none. At its
-//! start its derivatives are mapped to the Cartesian coordinates, and where it is looked at back to polar ones, both by the derivative
+//! start its derivatives are mapped to the Cartesian coordinates, and where results are needed back to polar ones, both by the derivative
 //! of the map between the coordinates and their rates. Nothing else is needed, since the map is smooth and does not change with time.
 
 use lagrangian_scalar::{Dual, Scalar};

@@ -632,12 +632,6 @@ fn matrices(
         drift: DMatrix::from_iterator(states, 1, drift),
         y: DMatrix::from_iterator(outputs, 1, here.outputs.iter().map(value)),
     };
-    let slope = |x: &Number| x.derivative.hi();
-    let rows = |response: &Response| -> Vec<f64> {
-        let rates = places.iter().map(|j| slope(&response.rates[*j]));
-        let all = rates.chain(response.accelerations.iter().map(slope));
-        all.collect()
-    };
     let all = choice.places();
     let columns = places
         .iter()
@@ -648,12 +642,7 @@ fn matrices(
             q.derivative = *d;
         }
         let there = respond(reduced, named_request, choice, &q, &s)?;
-        for (i, x) in rows(&there).into_iter().enumerate() {
-            matrices.a[(i, column)] = x;
-        }
-        for (i, x) in there.outputs.iter().enumerate() {
-            matrices.c[(i, column)] = slope(x);
-        }
+        set_column([&mut matrices.a, &mut matrices.c], column, &places, &there);
         for (i, step) in direction.iter().enumerate() {
             if !at.records[i] {
                 matrices.basis[(i, column)] = step.hi();
@@ -669,12 +658,7 @@ fn matrices(
         let there = respond(reduced, named_request, choice, &q, &s)?;
         s[k].derivative = DoubleDouble::ZERO;
         let column = kept + k;
-        for (i, x) in rows(&there).into_iter().enumerate() {
-            matrices.a[(i, column)] = x;
-        }
-        for (i, x) in there.outputs.iter().enumerate() {
-            matrices.c[(i, column)] = slope(x);
-        }
+        set_column([&mut matrices.a, &mut matrices.c], column, &places, &there);
         for i in (0..n).filter(|i| !at.records[*i] || integrals[*i]) {
             matrices.basis[(n + i, column)] = slope(&there.rates[i]);
         }
@@ -683,19 +667,34 @@ fn matrices(
         reduced.inputs_mut()[input].derivative = DoubleDouble::ONE;
         let there = respond(reduced, named_request, choice, &q, &s);
         reduced.inputs_mut()[input].derivative = DoubleDouble::ZERO;
-        let there = there?;
-        for (i, x) in rows(&there).into_iter().enumerate() {
-            matrices.b[(i, column)] = x;
-        }
-        for (i, x) in there.outputs.iter().enumerate() {
-            matrices.d[(i, column)] = slope(x);
-        }
+        set_column([&mut matrices.b, &mut matrices.d], column, &places, &there?);
     }
     let numbers = matrices.each().into_iter().flat_map(|m| m.iter());
     if numbers.copied().any(|x| !x.is_finite()) {
         return Err(Fault::NotFinite(places.first().copied().unwrap_or(0)));
     }
     Ok(matrices)
+}
+
+fn slope(x: &Number) -> f64 {
+    x.derivative.hi()
+}
+
+/// Sets a column of two matrices to the derivatives of a response: of the rates of all states, of which these places are the first, and of
+/// the outputs.
+fn set_column(
+    [of_states, of_outputs]: [&mut DMatrix<f64>; 2],
+    column: usize,
+    places: &[usize],
+    response: &Response,
+) {
+    let rates = places.iter().map(|j| &response.rates[*j]);
+    for (i, x) in rates.chain(&response.accelerations).enumerate() {
+        of_states[(i, column)] = slope(x);
+    }
+    for (i, x) in response.outputs.iter().enumerate() {
+        of_outputs[(i, column)] = slope(x);
+    }
 }
 
 /// The matrices, in which entries within round-off are set to 0, and bounds on the effect of rounding on each entry.

@@ -92,6 +92,64 @@ pub(crate) fn elsewhere(
     moved.collect()
 }
 
+/// The equations at two positions, with bounds on the effect of rounding.
+struct Compared<'a> {
+    here: &'a Linearized,
+    there: &'a Linearized,
+    bounds: &'a Linearized,
+}
+
+impl Compared<'_> {
+    /// Whether an entry of a matrix is the same at both positions. Entries that are 0 but for round-off are differences of numbers of
+    /// this size.
+    fn is_same(
+        &self,
+        of: fn(&Linearized) -> &DMatrix<f64>,
+        place: (usize, usize),
+        size: f64,
+    ) -> bool {
+        let limit = of(self.bounds)[place].max(SAME * size);
+        (of(self.here)[place] - of(self.there)[place]).abs() <= limit
+    }
+
+    /// Whether forces and their derivatives are the same.
+    fn have_same_equations(&self) -> bool {
+        let all = |of: fn(&Linearized) -> &DMatrix<f64>, size: f64| {
+            let (rows, columns) = of(self.here).shape();
+            let mut each = (0..rows).flat_map(|i| (0..columns).map(move |k| (i, k)));
+            each.all(|place| self.is_same(of, place, size))
+        };
+        let greater = |of: fn(&Linearized) -> &DMatrix<f64>| {
+            largest(of(self.here)).max(largest(of(self.there)))
+        };
+        let rate = greater(|it| &it.by_rates);
+        let force = greater(|it| &it.by_places) + rate * largest(&self.here.rates);
+        all(|it| &it.forces, force)
+            && all(|it| &it.by_places, force)
+            && all(|it| &it.by_rates, rate)
+    }
+
+    /// Whether the rate of a coordinate that follows by constraints on rates is the same.
+    fn has_same_rate(&self, row: usize, coordinate: usize) -> bool {
+        let (by, along) = (&self.here.rate_dependent_by_places, &self.here.along);
+        let size = largest(by) + largest(&self.here.rates);
+        (0..by.ncols()).all(|k| self.is_same(|it| &it.rate_dependent_by_places, (row, k), size))
+            && (0..along.ncols())
+                .all(|k| self.is_same(|it| &it.along, (coordinate, k), largest(along)))
+    }
+
+    /// Whether a coordinate that follows by constraints on positions moves alike.
+    fn has_same_tangent(&self, coordinate: usize) -> bool {
+        let tangent = &self.here.tangent;
+        (0..tangent.ncols())
+            .all(|k| self.is_same(|it| &it.tangent, (coordinate, k), largest(tangent)))
+    }
+}
+
+fn largest(m: &DMatrix<f64>) -> f64 {
+    m.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
+}
+
 /// Which coordinates only record how far the machine has moved.
 ///
 /// # Errors
@@ -107,8 +165,6 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
     let mut records = vec![false; reduced.dimension()];
     // The index of the coordinate that moved when the rate of each one changed.
     let mut because = vec![0; reduced.dimension()];
-    let largest = |m: &DMatrix<f64>| m.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    let fastest = largest(&here.rates);
     let moves = |j: &usize| here.rates[*j].abs() > bounds.rates[*j];
     for &j in places.iter().filter(|j| moves(j)) {
         for there in elsewhere(reduced, choice, place, j) {
@@ -116,54 +172,21 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
             let Ok(there) = reduced.linearized_only(choice, &there) else {
                 continue;
             };
-            let same = |[a, b, bound]: [&DMatrix<f64>; 3], place: (usize, usize), size: f64| {
-                let limit = bound[place].max(SAME * size);
-                (a[place] - b[place]).abs() <= limit
+            let both = Compared {
+                here,
+                there: &there,
+                bounds,
             };
-            let all = |matrices: [&DMatrix<f64>; 3], size: f64| {
-                let (rows, columns) = matrices[0].shape();
-                let mut each = (0..rows).flat_map(|i| (0..columns).map(move |k| (i, k)));
-                each.all(|place| same(matrices, place, size))
-            };
-            // Entries that are 0 but for round-off are differences of numbers of this size.
-            let sizes = [&here.by_places, &there.by_places].map(largest);
-            let rates = [&here.by_rates, &there.by_rates].map(largest);
-            let (force, rate) = (sizes[0].max(sizes[1]), rates[0].max(rates[1]));
-            if !all(
-                [&here.forces, &there.forces, &bounds.forces],
-                force + rate * fastest,
-            ) || !all(
-                [&here.by_places, &there.by_places, &bounds.by_places],
-                force + rate * fastest,
-            ) || !all([&here.by_rates, &there.by_rates, &bounds.by_rates], rate)
-            {
+            if !both.have_same_equations() {
                 return Err(Unsteady::Depends(j));
             }
-            let mut change = |i: usize| {
+            let rates = choice.rate_dependent.iter().enumerate();
+            let rates = rates.filter(|(row, i)| !both.has_same_rate(*row, **i));
+            let changed = choice.position_dependent.iter();
+            let changed = changed.filter(|i| !both.has_same_tangent(**i));
+            for &i in rates.map(|(_, i)| i).chain(changed) {
                 if !std::mem::replace(&mut records[i], true) {
                     because[i] = j;
-                }
-            };
-            for (row, &i) in choice.rate_dependent.iter().enumerate() {
-                let (by, along) = (&here.rate_dependent_by_places, &here.along);
-                let is_same = (0..by.ncols()).all(|k| {
-                    let matrices = [
-                        by,
-                        &there.rate_dependent_by_places,
-                        &bounds.rate_dependent_by_places,
-                    ];
-                    same(matrices, (row, k), largest(by) + fastest)
-                }) && (0..along.ncols())
-                    .all(|k| same([along, &there.along, &bounds.along], (i, k), largest(along)));
-                if !is_same {
-                    change(i);
-                }
-            }
-            for &i in &choice.position_dependent {
-                let tangent = [&here.tangent, &there.tangent, &bounds.tangent];
-                let mut row = (0..places.len()).map(|k| (i, k));
-                if !row.all(|place| same(tangent, place, largest(&here.tangent))) {
-                    change(i);
                 }
             }
         }
@@ -193,64 +216,13 @@ pub fn near(
     steady: &[bool],
 ) -> Result<SteadyMotion, Unsteady> {
     let mut records = records(reduced, &found.state())?;
-    let Stationary {
-        choice,
-        here,
-        bounds,
-        ..
-    } = &found;
-    let places = choice.places();
-    let moving = choice.independent.len();
+    let Stationary { here, bounds, .. } = &found;
+    let places = found.choice.places();
     let kept: Vec<usize> = (0..places.len()).filter(|c| !records[places[*c]]).collect();
-    let rate_dependent: Vec<usize> = kept
-        .iter()
-        .filter(|c| **c >= moving)
-        .map(|c| c - moving)
-        .collect();
-    let singular = || {
-        Unsteady::Fault(Fault::Singular(
-            choice.independent.first().copied().unwrap_or(0),
-        ))
-    };
-    let by_places = without_roundoff(&here.by_places, &bounds.by_places);
-    let by_rates = without_roundoff(&here.by_rates, &bounds.by_rates);
-    let k = divided(&here.mass, &by_places).ok_or_else(singular)?;
-    let c = divided(&here.mass, &by_rates).ok_or_else(singular)?;
-    let inverse = divided(&here.mass, &DMatrix::identity(moving, moving)).ok_or_else(singular)?;
-    let inverse = inverse.abs();
-    let k_bounds = &inverse * (&bounds.by_places + &bounds.mass * k.abs());
-    let c_bounds = &inverse * (&bounds.by_rates + &bounds.mass * c.abs());
-    let column = |m: &DMatrix<f64>| DMatrix::from_fn(m.nrows(), kept.len(), |i, j| m[(i, kept[j])]);
-    let p = column(&without_roundoff(
-        &here.rate_dependent_by_places,
-        &bounds.rate_dependent_by_places,
-    ));
-    let p_bounds = column(&bounds.rate_dependent_by_places);
-    let b = DMatrix::from_fn(rate_dependent.len(), moving, |i, j| {
-        let row = choice.rate_dependent[rate_dependent[i]];
-        let (x, bound) = (here.along[(row, j)], bounds.along[(row, j)]);
-        if x.abs() <= bound { 0.0 } else { x }
-    });
-    let k_bounds = column(&k_bounds);
-    let linear = Linear {
-        k: column(&k),
-        c,
-        p: DMatrix::from_fn(rate_dependent.len(), kept.len(), |i, j| {
-            p[(rate_dependent[i], j)]
-        }),
-        b,
-        k_bounds: DMatrix::from_fn(kept.len(), kept.len(), |i, j| {
-            if i < moving {
-                k_bounds[(i, j)]
-            } else {
-                p_bounds[(rate_dependent[i - moving], j)]
-            }
-        }),
-        c_bounds,
-    };
+    let linear = linear(&found, &kept)?;
     let mut modes = spectrum::modes(&linear).ok_or(Unsteady::NoEigenvalues)?;
     modes.free += places.len() - kept.len();
-    let tangent = column(&without_roundoff(&here.tangent, &bounds.tangent));
+    let tangent = columns(&without_roundoff(&here.tangent, &bounds.tangent), &kept);
     for mode in &mut modes.modes {
         mode.shape = in_coordinates(&tangent, &records, mode);
     }
@@ -273,6 +245,68 @@ pub fn near(
         records,
         found,
     })
+}
+
+/// The linear equations of the small motions of the coordinates that do not only record, those with the columns `kept`.
+fn linear(found: &Stationary, kept: &[usize]) -> Result<Linear, Unsteady> {
+    let Stationary {
+        choice,
+        here,
+        bounds,
+        ..
+    } = found;
+    let moving = choice.independent.len();
+    let rate_dependent: Vec<usize> = kept
+        .iter()
+        .filter(|c| **c >= moving)
+        .map(|c| c - moving)
+        .collect();
+    let singular = || {
+        Unsteady::Fault(Fault::Singular(
+            choice.independent.first().copied().unwrap_or(0),
+        ))
+    };
+    let by_places = without_roundoff(&here.by_places, &bounds.by_places);
+    let by_rates = without_roundoff(&here.by_rates, &bounds.by_rates);
+    let k = divided(&here.mass, &by_places).ok_or_else(singular)?;
+    let c = divided(&here.mass, &by_rates).ok_or_else(singular)?;
+    let inverse = divided(&here.mass, &DMatrix::identity(moving, moving)).ok_or_else(singular)?;
+    let inverse = inverse.abs();
+    let k_bounds = &inverse * (&bounds.by_places + &bounds.mass * k.abs());
+    let c_bounds = &inverse * (&bounds.by_rates + &bounds.mass * c.abs());
+    let p = without_roundoff(
+        &here.rate_dependent_by_places,
+        &bounds.rate_dependent_by_places,
+    );
+    let p = columns(&p, kept);
+    let p_bounds = columns(&bounds.rate_dependent_by_places, kept);
+    let b = DMatrix::from_fn(rate_dependent.len(), moving, |i, j| {
+        let row = choice.rate_dependent[rate_dependent[i]];
+        let (x, bound) = (here.along[(row, j)], bounds.along[(row, j)]);
+        if x.abs() <= bound { 0.0 } else { x }
+    });
+    let k_bounds = columns(&k_bounds, kept);
+    Ok(Linear {
+        k: columns(&k, kept),
+        c,
+        p: DMatrix::from_fn(rate_dependent.len(), kept.len(), |i, j| {
+            p[(rate_dependent[i], j)]
+        }),
+        b,
+        k_bounds: DMatrix::from_fn(kept.len(), kept.len(), |i, j| {
+            if i < moving {
+                k_bounds[(i, j)]
+            } else {
+                p_bounds[(rate_dependent[i - moving], j)]
+            }
+        }),
+        c_bounds,
+    })
+}
+
+/// These columns of a matrix.
+fn columns(m: &DMatrix<f64>, kept: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(m.nrows(), kept.len(), |i, j| m[(i, kept[j])])
 }
 
 /// Shapes in which the amplitudes of states of first order replace those of their integrals. Modes in which only

@@ -406,25 +406,7 @@ impl<'a> Reduced<'a> {
         let offset = self.call(Role::ConstraintRates, (q, &zero), m, self.time);
         let dependent = choice.dependent();
         let count = choice.independent.len();
-        let entry = |k: usize, j: usize| rows[k * n + j];
-        let square: Vec<Vec<Number>> = choice
-            .rows
-            .iter()
-            .map(|&k| dependent.iter().map(|&j| entry(k, j)).collect())
-            .collect();
-        // −G_I, and −b − G_I s.
-        let mut right: Vec<Vec<Number>> = choice
-            .rows
-            .iter()
-            .map(|&k| choice.independent.iter().map(|&j| -entry(k, j)).collect())
-            .collect();
-        for (row, &k) in right.iter_mut().zip(&choice.rows) {
-            let sum = row
-                .iter()
-                .zip(s)
-                .fold(-offset[k], |sum, (g, s)| sum + *g * *s);
-            row.push(sum);
-        }
+        let [square, right] = blocks(choice, &dependent, (&rows, &offset), s);
         let singular = || Fault::Singular(dependent.first().copied().unwrap_or(0));
         let solved = solve(square.clone(), right).map_err(|_| singular())?;
         let mut along = vec![vec![Number::ZERO; count]; n];
@@ -440,17 +422,7 @@ impl<'a> Reduced<'a> {
         let bias = self.call(Role::ConstraintBias, (q, &v), m, self.time);
         let right = choice.rows.iter().map(|&k| vec![bias[k]]).collect();
         let solved = solve(square, right).map_err(|_| singular())?;
-        let lower = self.call(
-            Role::MassMatrix,
-            (q, &v),
-            Shape::Symmetric(n).len(),
-            self.time,
-        );
-        let mut mass = vec![Number::ZERO; n * n];
-        for (index, entry) in lower.into_iter().enumerate() {
-            let (i, j) = Shape::place(index);
-            (mass[i * n + j], mass[j * n + i]) = (entry, entry);
-        }
+        let mass = self.mass_at(q, &v);
         let applied = self.call(Role::Forces, (q, &v), n, self.time);
         let mut forces = applied.clone();
         for (a, &j) in solved.iter().zip(&dependent) {
@@ -482,6 +454,19 @@ impl<'a> Reduced<'a> {
             applied,
             held,
         })
+    }
+
+    /// M, row after row.
+    fn mass_at(&mut self, q: &[Number], v: &[Number]) -> Vec<Number> {
+        let n = q.len();
+        let count = Shape::Symmetric(n).len();
+        let lower = self.call(Role::MassMatrix, (q, v), count, self.time);
+        let mut mass = vec![Number::ZERO; n * n];
+        for (index, entry) in lower.into_iter().enumerate() {
+            let (i, j) = Shape::place(index);
+            (mass[i * n + j], mass[j * n + i]) = (entry, entry);
+        }
+        mass
     }
 
     /// The displacement of all coordinates with each entry of z, in 32 digits.
@@ -671,6 +656,31 @@ pub(crate) struct Evaluated {
     pub applied: Vec<Number>,
     /// a°.
     pub held: Vec<Number>,
+}
+
+/// The blocks of the chosen constraints `G v + b = 0`, with the rows of G one after the other: of the `dependent` coordinates, `G_D`, and of
+/// all else, `−G_I` followed by `−b − G_I s`.
+fn blocks(
+    choice: &Choice,
+    dependent: &[usize],
+    (rows, offset): (&[Number], &[Number]),
+    s: &[Number],
+) -> [Vec<Vec<Number>>; 2] {
+    let n = dependent.len() + choice.independent.len();
+    let entry = |k: usize, j: usize| rows[k * n + j];
+    let of_dependent = choice.rows.iter();
+    let of_dependent = of_dependent.map(|&k| dependent.iter().map(|&j| entry(k, j)).collect());
+    let of_others = choice.rows.iter().map(|&k| {
+        let independent = choice.independent.iter();
+        let mut row: Vec<Number> = independent.map(|&j| -entry(k, j)).collect();
+        let sum = row
+            .iter()
+            .zip(s)
+            .fold(-offset[k], |sum, (g, s)| sum + *g * *s);
+        row.push(sum);
+        row
+    });
+    [of_dependent.collect(), of_others.collect()]
 }
 
 /// `A⁻¹ B` by Gaussian elimination with pivoting.

@@ -205,41 +205,18 @@ pub fn modes(linear: &Linear) -> Option<Modes> {
 
 /// The modes of one coupled set of coordinates, in any order.
 fn connected(linear: Linear) -> Option<Modes> {
-    let (_, n) = linear.len();
     let Scaled {
         linear,
         scales,
         rate,
     } = Scaled::of(linear);
-    let along = linear.along();
     let Split {
         free,
         count,
         bound,
         drifts,
     } = Split::of(&linear)?;
-    // With x = Σ z a + W w, v = ẋ₁: w' = Wᵀ P W w + Wᵀ B v, v' = K W w + C v.
-    let m = bound.ncols();
-    let assembled = |p: &DMatrix<f64>,
-                     b: &DMatrix<f64>,
-                     k: &DMatrix<f64>,
-                     c: &DMatrix<f64>,
-                     w: &DMatrix<f64>| {
-        let mut a = DMatrix::zeros(m + n, m + n);
-        a.view_mut((0, 0), (m, m))
-            .copy_from(&(w.transpose() * p * w));
-        a.view_mut((0, m), (m, n)).copy_from(&(w.transpose() * b));
-        a.view_mut((m, 0), (n, m)).copy_from(&(k * w));
-        a.view_mut((m, m), (n, n)).copy_from(c);
-        a
-    };
-    let a = assembled(&linear.driven(), &along, &linear.k, &linear.c, &bound);
-    let k_bounds = linear.k_bounds.rows(0, n).into_owned();
-    let mut p_bounds = linear.k_bounds.clone();
-    p_bounds.rows_mut(0, n).fill(0.0);
-    let none = DMatrix::zeros(along.nrows(), n);
-    let bounds = assembled(&p_bounds, &none, &k_bounds, &linear.c_bounds, &bound.abs());
-
+    let [a, bounds] = of_first_order(&linear, &bound);
     let mut modes = Modes {
         free: count,
         drifts,
@@ -287,6 +264,33 @@ fn connected(linear: Linear) -> Option<Modes> {
         }
     }
     Some(modes)
+}
+
+/// The matrix of the equations of first order, with bounds on its entries. With `x = Σ z a + W w`, `v = ẋ₁`:
+/// `w' = Wᵀ P W w + Wᵀ B v`, `v' = K W w + C v`.
+fn of_first_order(linear: &Linear, bound: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
+    let (m, (_, n)) = (bound.ncols(), linear.len());
+    let assembled = |p: &DMatrix<f64>,
+                     b: &DMatrix<f64>,
+                     k: &DMatrix<f64>,
+                     c: &DMatrix<f64>,
+                     w: &DMatrix<f64>| {
+        let mut a = DMatrix::zeros(m + n, m + n);
+        a.view_mut((0, 0), (m, m))
+            .copy_from(&(w.transpose() * p * w));
+        a.view_mut((0, m), (m, n)).copy_from(&(w.transpose() * b));
+        a.view_mut((m, 0), (n, m)).copy_from(&(k * w));
+        a.view_mut((m, m), (n, n)).copy_from(c);
+        a
+    };
+    let along = linear.along();
+    let a = assembled(&linear.driven(), &along, &linear.k, &linear.c, bound);
+    let k_bounds = linear.k_bounds.rows(0, n).into_owned();
+    let mut p_bounds = linear.k_bounds.clone();
+    p_bounds.rows_mut(0, n).fill(0.0);
+    let none = DMatrix::zeros(along.nrows(), n);
+    let bounds = assembled(&p_bounds, &none, &k_bounds, &linear.c_bounds, &bound.abs());
+    [a, bounds]
 }
 
 /// The amplitudes of all coordinates, up to a factor, from an eigenvector `(w, v)`: those of moving coordinates are

@@ -25,6 +25,7 @@ mod energy;
 mod freedom;
 pub mod groups;
 pub(crate) mod guide;
+mod guided;
 pub mod integrals;
 mod kinematics;
 mod lagrange;
@@ -46,6 +47,7 @@ pub use brachistochrone::{Brachistochronic, SlidingGuide, UnmetCondition};
 pub use carrying::Carrying;
 pub use constraints::{ConstraintEquation, constraints};
 pub use freedom::{Freedom, Independent, contradictions, freedom};
+pub use guided::GuideEquation;
 pub use kinematics::angular_velocities;
 pub use lagrange::{Oracle, OracleConstraint, OracleReaction, OracleSliding};
 pub use reduction::{Dependent, ReducedModel, Reduction, dependents};
@@ -95,8 +97,10 @@ pub struct Equations<'d> {
     pub constraints: Vec<ConstraintEquation<'d>>,
     /// The guided contacts with friction, which are not contained in `M`, `h`, `Q` and `f` either.
     pub sliding: Vec<SlidingEquation<'d>>,
-    /// The unilateral contacts, which are contained in nothing else here.
+    /// The unilateral contacts, which are contained in nothing else here. Behind these stand the guides, if there are both; then `sliding` is empty.
     pub unilateral: Vec<UnilateralEquation<'d>>,
+    /// The normal reactions of the guides among the unilateral contacts.
+    pub guides: Vec<GuideEquation<'d>>,
     /// This machine without the coordinates that constraints determine, if there are any.
     pub reduction: Option<Box<Reduction<'d>>>,
     /// The residual of the equations of motion at given accelerations, `f − M a`, eq. (E25); with
@@ -231,8 +235,15 @@ impl<'d> Equations<'d> {
         };
         equations.residual_derivatives = slopes;
         if !model.dag.is_exhausted() {
-            equations.sliding = sliding::sliding(model, report)?;
+            let relaxed = match &model.relaxed {
+                Some(relaxed) => unilateral::unilateral(relaxed, report)?,
+                None => Vec::new(),
+            };
+            let directions = relaxed.into_iter().flat_map(|contact| contact.directions);
+            let rows: Vec<_> = directions.map(|direction| direction.row).collect();
+            equations.sliding = sliding::sliding(model, &rows, report)?;
             equations.unilateral = unilateral::unilateral(model, report)?;
+            guided::beside_contacts(model, &mut equations);
         }
         equations.reduction = reduction::reduction(model, &equations.constraints);
         if model.dag.is_exhausted() {
@@ -431,6 +442,7 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
         constraints: constraints::constraints(model),
         sliding: Vec::new(),
         unilateral: Vec::new(),
+        guides: Vec::new(),
         reduction: None,
         forces: projection.project(&forces, all),
         residual: if model.derivatives.is_empty() {
@@ -508,6 +520,7 @@ fn approximate<'d>(
         constraints: constraints::constraints(model),
         sliding: Vec::new(),
         unilateral: Vec::new(),
+        guides: Vec::new(),
         reduction: None,
         residual: unbalanced,
         residual_derivatives: Vec::new(),

@@ -28,6 +28,7 @@ pub use equations::{
 #[cfg(doc)]
 use lagrangian_program::Program;
 pub use lower::{Quantity, lower, lower_by, of_quantities, quantities};
-pub use proof::symbolic::{Disagreement, POINTS, prove, prove_quantities};
+pub use proof::disagreement::Disagreement;
+pub use proof::symbolic::{POINTS, prove, prove_quantities};
 pub use proof::{Proved, STATES, Uncharted, Unproved, Witness, prove_charts};
 pub use states::around_start;

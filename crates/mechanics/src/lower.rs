@@ -139,6 +139,7 @@ fn unilateral(equation: &UnilateralEquation<'_>) -> Unilateral {
         is_rolling_resistance: equation.is_rolling_resistance,
         is_second_tangent: equation.is_second_tangent,
         has_face: equation.face.is_some(),
+        is_guide: equation.is_guide,
     }
 }
 
@@ -311,6 +312,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         faces: (equations.unilateral.iter())
             .filter(|u| u.face.is_some())
             .count(),
+        guides: equations.guides.len(),
         derivatives: model.derivatives.len(),
         stores: model.energies_of_states().next().is_some(),
     };
@@ -345,6 +347,10 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         Role::ContactMatrix => directions.flat_map(|d| d.row.iter().copied()).collect(),
         Role::ContactBias => directions.map(|d| d.bias).collect(),
         Role::ContactCoefficients => unilateral.iter().flat_map(|u| u.coefficients).collect(),
+        Role::GuideMatrix => (equations.guides.iter())
+            .flat_map(|guide| guide.coefficients())
+            .collect(),
+        Role::GuideLoads => equations.guides.iter().map(|guide| guide.load).collect(),
         Role::Output(index) => vec![equations.outputs[index]],
         Role::Assumption(index) => vec![model.assumptions[index].excess],
         // These are found by elimination, or are not expressions of the equations.

@@ -38,6 +38,7 @@ mod accelerations;
 mod charts;
 mod contacts;
 pub(crate) mod derived;
+pub mod disagreement;
 mod dynamics;
 pub(crate) mod number;
 mod projection;
@@ -513,6 +514,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_constraints(&state, &w, &literal, &computed)?;
         self.check_power(&state, &literal, &computed)?;
         let signs = self.check_slips(&state, &w, &literal)?;
+        let has_friction = !signs.is_empty();
         self.check_unilateral(&state, &w, &literal)?;
         self.check_outputs_and_start(&state, facts)?;
 
@@ -528,7 +530,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
         self.has_had_accelerations = true;
         self.check_pivots(&state, &computed)?;
-        if literal.sliding.is_empty() {
+        if !has_friction {
             self.check_motion(&state, &computed)?;
             self.check_projection(&state, &computed)?
         } else {

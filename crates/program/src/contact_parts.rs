@@ -1,8 +1,8 @@
 //! The numbers of single contacts, by parts of the functions that compute those of all.
 //!
-//! A run with many contacts needs the numbers of a few at a time: those of the closed ones at each stage of a step, and those of
-//! the near ones at each look at it. The part of a contact consists of the operations on which its numbers depend, so that it gives the same
-//! bits. Contacts that are alike, such as the pairs of a pile of discs, have the same operations on other arguments: one function
+//! A run with many contacts needs the numbers of a few at a time: those of the closed contacts at each stage of a step, and those of
+//! the near ones at each sample within it. The part of a contact consists of the operations on which its numbers depend, so that it gives the same
+//! bits. Contacts of the same kind, such as the pairs of a pile of discs, have the same operations on different arguments: one function
 //! with a list of arguments for each contact serves all of them, and is compiled once.
 
 use lagrangian_symbolic::Rational;

@@ -217,6 +217,9 @@ pub struct Unilateral {
     pub is_second_tangent: bool,
     /// Whether it is a corner on a face of a polygon, which has ends: see [`Role::ContactFaces`].
     pub has_face: bool,
+    /// Whether it is a guide, which is never open and presses to either side: see [`Role::GuideMatrix`]. Guides stand behind all other contacts. The gap and the
+    /// row of the normal are 0.
+    pub is_guide: bool,
 }
 
 /// How the results of a function are arranged.

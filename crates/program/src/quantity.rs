@@ -26,6 +26,11 @@ pub enum ItemKind {
     /// The coefficients of unilateral contacts: for each its restitution along the normal and along the tangent,
     /// its friction and its static friction.
     Coefficient,
+    /// The guides among the unilateral contacts.
+    Guide,
+    /// What the reaction of a guide depends on: the accelerations of the coordinates, the multipliers of the constraints, and the forces along
+    /// the directions of the unilateral contacts.
+    OnGuide,
 }
 
 /// The arrangement of the results of a function, independent of the machine.
@@ -90,6 +95,8 @@ pub enum Needs {
     Unilateral,
     /// Machines with unilateral contacts of polygons.
     Faces,
+    /// Machines with guides beside unilateral contacts.
+    Guides,
     /// Machines whose first-order states store energy.
     Stores,
     /// Machines whose spec requests it.
@@ -105,6 +112,7 @@ impl Needs {
             Needs::Contacts => sizes.contacts > 0,
             Needs::Unilateral => sizes.unilateral > 0,
             Needs::Faces => sizes.faces > 0,
+            Needs::Guides => sizes.guides > 0,
             Needs::Stores => sizes.stores,
         }
     }
@@ -160,6 +168,8 @@ pub struct Sizes {
     pub unilateral: usize,
     /// Unilateral contacts with faces of polygons.
     pub faces: usize,
+    /// Guides among the unilateral contacts, which stand behind the others.
+    pub guides: usize,
     /// Variables that accelerations are differentiated by.
     pub derivatives: usize,
     /// Whether first-order states store energy.
@@ -210,12 +220,14 @@ macro_rules! quantities {
 }
 
 use Extent::{Chosen, Differentials, Each, Number, Responses, Rows, State, Symmetric};
-use ItemKind::{Coefficient, Constraint, Contact, Coordinate, Direction, Face, Unilateral};
+use ItemKind::{
+    Coefficient, Constraint, Contact, Coordinate, Direction, Face, Guide, OnGuide, Unilateral,
+};
 
 quantities! {
-    /// Prepared values: what parameters alone decide.
+    /// Prepared values: everything that depends on parameters alone.
     Prepare => { "prepare", "", "k*", Chosen, [], Nothing, Seldom, "" }
-    /// The coordinates at the start, and behind them their rates if any of these is not 0.
+    /// The coordinates at the start, followed by their rates if any of these is not 0.
     Start => { "start", "", "s*", State, [], Nothing, Seldom, "" }
     /// Mass matrix `M`.
     MassMatrix => { "mass_matrix", "M", "m*", Symmetric(Coordinate), [Time Coordinates], Nothing, Seldom, "E4" }
@@ -255,8 +267,8 @@ quantities! {
         "multipliers", "lambda", "lambda*", Each(Constraint), [Time Coordinates Velocities Inputs], Constraints, Solves,
         "E31"
     }
-    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and how independent these are. Only of machines
-    /// whose constraints are independent.
+    /// Residuals of positions and rates, rows of `G`, the smallest displacements onto the constraints, and how independent these are. Only for
+    /// machines whose constraints are independent.
     Projection => {
         "projection", "", "r*", Chosen, [Time Coordinates Velocities], Request, Solves, "E31"
     }
@@ -268,9 +280,9 @@ quantities! {
     SlipBias => {
         "slip_bias", "sigma", "bias*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32"
     }
-    /// What there is without friction, and what a unit of each friction force adds to it: accelerations, multipliers,
-    /// `dw/dt` and the normal reaction of each contact; behind these the coefficients of friction. A machine with
-    /// contacts has this in place of accelerations and multipliers.
+    /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without friction, and the change of each
+    /// by a unit of each friction force; followed by the coefficients of friction. A machine with guided contacts has
+    /// this in place of accelerations and multipliers.
     Friction => {
         "friction", "", "r*", Responses, [Time Coordinates Velocities Inputs], Contacts, Solves, "E34"
     }
@@ -288,24 +300,32 @@ quantities! {
     ContactBias => {
         "contact_bias", "", "bias*", Each(Direction), [Time Coordinates Velocities], Unilateral, Seldom, "E53"
     }
-    /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (of contacts that
-    /// yield the parameters of their force), friction, static
-    /// friction.
+    /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (for compliant contacts
+    /// the parameters of their force), friction, static friction.
     ContactCoefficients => {
         "contact_coefficients", "", "c*", Each(Coefficient), [Time Coordinates Velocities], Unilateral, Seldom, ""
     }
-    /// Of each unilateral contact that is with a face of a polygon: how far its corner is outside of that face, how far it is
-    /// beyond the ends of it, negative between them, both in m, and how fast the second grows, in m/s.
+    /// For each unilateral contact of a corner with a face of a polygon: the distance of the corner outside the face, and its
+    /// distance beyond the ends of the face, negative between them, both in m; the rate of the second, in m/s.
     ContactFaces => {
         "contact_faces", "", "face*", Each(Face), [Time Coordinates Velocities], Faces, Seldom, "E77"
     }
-    /// Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of
-    /// `M da/dx = d(f - M a)/dx` with `a` held.
+    /// What a unit of each acceleration, of each multiplier, and of a force along each direction of the unilateral contacts adds to the
+    /// normal reactions of guides beside these.
+    GuideMatrix => {
+        "guide_matrix", "", "n*", Rows(Guide, OnGuide), [Time Coordinates], Guides, Seldom, "E81"
+    }
+    /// The normal reactions of guides beside unilateral contacts where all accelerations, multipliers and forces of contacts are 0, in N.
+    GuideLoads => {
+        "guide_loads", "", "nu*", Each(Guide), [Time Coordinates Velocities Inputs], Guides, Seldom, "E81"
+    }
+    /// Accelerations `a` with their derivatives by each requested `x`, the solutions of
+    /// `M da/dx = d(f - M a)/dx` with `a` held constant.
     Derivatives => {
         "derivatives", "", "d*", Differentials, [Time Coordinates Velocities Inputs], Request, Solves, "E26"
     }
-    /// Derivatives of a sum of accelerations by coordinates, rates, parameters and inputs; the weights of the sum are the
-    /// inputs behind the machine's own.
+    /// Derivatives of a weighted sum of accelerations by coordinates, rates, parameters and inputs; the weights are additional
+    /// inputs after those of the machine.
     Adjoint => {
         "adjoint", "", "g*", Chosen, [Time Coordinates Velocities Inputs], Request, Solves, ""
     }
@@ -313,15 +333,15 @@ quantities! {
     Gradient(usize) => {
         "gradient", "", "g*", Chosen, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
     }
-    /// Numbers of one unilateral contact, of which the others are 0, with its arguments in place of the coordinates.
+    /// Numbers of one unilateral contact, without those that are 0, with its arguments in place of the coordinates.
     ContactPart(usize) => {
         "contact_part", "", "r*", Chosen, [Time Coordinates], Request, Seldom, ""
     }
-    /// What time alone decides of the accelerations.
+    /// The part of the accelerations that depends on time alone.
     AtTime => { "at_time", "", "r*", Chosen, [Time], Request, Often, "" }
-    /// What time and coordinates decide of the accelerations.
+    /// The part of the accelerations that depends on time and coordinates.
     AtPosition => { "at_position", "", "r*", Chosen, [Time Coordinates], Request, Solves, "" }
-    /// Accelerations `a`, of what the stage before has left.
+    /// Accelerations `a`, from the results of the previous stage.
     AccelerationsAt => {
         "accelerations_at", "a", "*_ddot", Each(Coordinate), [Time Coordinates Velocities Inputs], Request, Solves, "E7"
     }
@@ -333,11 +353,11 @@ quantities! {
     StateEnergy => { "state_energy", "E", "", Number, [Time Coordinates Velocities], Stores, Seldom, "E59" }
     /// Dissipation function `D`, in W.
     Dissipation => { "dissipation", "D", "", Number, [Time Coordinates Velocities Inputs], Nothing, Seldom, "E3" }
-    /// Power `P` that drives, forces and inputs put in, in W.
+    /// Power `P` supplied by drives, forces and inputs, in W.
     WorkRate => {
         "work_rate", "P", "", Number, [Time Coordinates Velocities Accelerations Inputs], Nothing, Seldom, "E19"
     }
-    /// Power `R` that dampers take out, in W.
+    /// Power `R` dissipated by dampers, in W.
     DissipationRate => {
         "dissipation_rate", "R", "", Number, [Time Coordinates Velocities Inputs], Nothing, Seldom, "E18"
     }
@@ -345,7 +365,7 @@ quantities! {
     Output(usize) => {
         "output", "", "", Number, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
     }
-    /// What a fact says is positive, by its index among the assumptions.
+    /// The expression that an assumption states to be positive, by its index among the assumptions.
     Assumption(usize) => { "assumption", "", "", Number, [Time Coordinates Velocities Inputs], Request, Seldom, "" }
 }
 
@@ -405,6 +425,8 @@ impl Sizes {
             ItemKind::Face => 3 * self.faces,
             ItemKind::Direction => 2 * self.unilateral,
             ItemKind::Coefficient => 4 * self.unilateral,
+            ItemKind::Guide => self.guides,
+            ItemKind::OnGuide => self.coordinates + self.constraints + 2 * self.unilateral,
         }
     }
 }
@@ -451,6 +473,7 @@ impl Program {
             reaction_axes: self.reaction_axes,
             unilateral: self.unilateral.len(),
             faces: self.unilateral.iter().filter(|one| one.has_face).count(),
+            guides: self.unilateral.iter().filter(|one| one.is_guide).count(),
             derivatives: self.derivatives.len(),
             stores: self.function(Role::StateEnergy).is_some(),
         }
@@ -507,6 +530,18 @@ impl Program {
                 let part = ["gap", "slip"][index % 2];
                 let one = self.unilateral.get(index / 2);
                 one.map(|one| format!("{}.{part}", one.name))
+            }
+            Guide => {
+                let mut guides = self.unilateral.iter().filter(|one| one.is_guide);
+                guides.nth(index).map(|one| one.name.clone())
+            }
+            OnGuide => {
+                let (n, m) = (self.coordinates.len(), self.constraints.len());
+                return match index {
+                    _ if index < n => self.member((Coordinate, index)),
+                    _ if index < n + m => self.member((Constraint, index - n)),
+                    _ => self.member((Direction, index - n - m)),
+                };
             }
             Coefficient => {
                 let one = self.unilateral.get(index / 4);

@@ -15,6 +15,8 @@
 //! a loop. Contraction of a product into a sum is part of the kind of a statement, so a loop gives the
 //! same bits as the straight-line code.
 
+use std::ops::Range;
+
 use rustc_hash::FxHashMap;
 
 use super::{Contracted, Contractions, Function, Op, Value};
@@ -250,76 +252,26 @@ impl Statements {
     ) -> Option<(Vec<Statement>, Repeat)> {
         let finder = Finder::new(self, function);
         let place = |value: Value| finder.places[value.index()].map(|(statement, _)| statement);
-        // The number of iterations by which the first is ahead of the second.
-        let of_first = |value: &Value| {
-            let statement =
-                place(*value).filter(|statement| (first.start..first.end()).contains(statement))?;
-            Some(((statement - first.start) / first.period) as isize)
-        };
-        let ahead = second.operands.iter().flatten().filter_map(|operand| {
-            let Operand::Column(column) = operand else {
-                return None;
-            };
-            let each = column.iter().enumerate();
-            each.filter_map(|(i, value)| Some(of_first(value)? - i as isize))
-                .max()
-        });
-        let ahead = ahead.max().unwrap_or(0);
-        let (skip_first, skip_second) = (ahead.max(0) as usize, (-ahead).max(0) as usize);
-        let left = |repeat: &Repeat, skip: usize| repeat.count.checked_sub(skip);
-        let count = left(first, skip_first)?.min(left(second, skip_second)?);
-        if count < FEWEST || count + FEWEST < first.count.max(second.count) {
-            return None;
-        }
-        // In the loop: these bodies. Before it, the statements that do not depend on the loop; after it,
-        // those that do.
-        let body = |repeat: &Repeat, skip: usize, i: usize| {
-            let start = repeat.start + (skip + i) * repeat.period;
-            start..start + repeat.period
-        };
-        let range = first.start..second.end();
-        let mut in_loop = vec![false; range.len()];
-        for i in 0..count {
-            for statement in body(first, skip_first, i).chain(body(second, skip_second, i)) {
-                in_loop[statement - range.start] = true;
-            }
-        }
-        let mut needs_loop = vec![false; range.len()];
-        let (mut before, mut after) = (Vec::new(), Vec::new());
-        for statement in range.clone() {
-            let mut operands = self.statements[statement]
-                .operands
-                .iter()
-                .filter_map(|x| place(*x));
-            let at = statement - range.start;
-            needs_loop[at] =
-                in_loop[at] || operands.any(|x| x >= range.start && needs_loop[x - range.start]);
-            match (in_loop[at], needs_loop[at]) {
-                (true, _) => {}
-                (_, true) => after.push(statement),
-                (_, false) => before.push(statement),
-            }
-        }
+        let pair = Pair::of(first, second, &place)?;
+        let range = pair.range();
+        let [before, after] = self.around(&pair, &place);
         // Guards keep their order.
         let is_guard =
             |statement: &usize| matches!(self.statements[*statement].kind, StatementKind::Guard(_));
-        let mut bodies_of_second = body(second, skip_second, 0);
         if self.statements[range.clone()]
             .iter()
             .any(|statement| statement.kind == StatementKind::AllCircular)
-            || bodies_of_second.any(|statement| is_guard(&statement))
+            || pair.second(0).any(|statement| is_guard(&statement))
             || before
                 .iter()
                 .any(|statement| is_guard(statement) && *statement >= first.end())
         {
             return None;
         }
-        let loops =
-            (0..count).flat_map(|i| body(first, skip_first, i).chain(body(second, skip_second, i)));
         let start = range.start + before.len();
         let order = (0..range.start)
             .chain(before)
-            .chain(loops)
+            .chain(pair.bodies())
             .chain(after)
             .chain(range.end..self.statements.len());
         let statements = Statements {
@@ -338,11 +290,104 @@ impl Statements {
                         |value: &Value| finder.places[value.index()].is_none_or(|(x, _)| x < at);
                     statement.operands.iter().all(known)
                 });
-        let period = first.period + second.period;
+        let (period, count) = (first.period + second.period, pair.count);
         let (found, _) = finder.count_iterations(start, period, start + period * count);
         let fused = finder.repeat(start, period, count);
         let fused = fused.filter(|_| is_in_order && found == count)?;
         Some((statements.statements, fused))
+    }
+
+    /// The statements from the first repeat to the end of the second that are in no body of both: before the loop those that do not depend
+    /// on it, after it those that do.
+    fn around(&self, pair: &Pair<'_>, place: &dyn Fn(Value) -> Option<usize>) -> [Vec<usize>; 2] {
+        let range = pair.range();
+        let mut in_loop = vec![false; range.len()];
+        for statement in pair.bodies() {
+            in_loop[statement - range.start] = true;
+        }
+        let mut needs_loop = vec![false; range.len()];
+        let (mut before, mut after) = (Vec::new(), Vec::new());
+        for statement in range.clone() {
+            let mut operands = self.statements[statement]
+                .operands
+                .iter()
+                .filter_map(|x| place(*x));
+            let at = statement - range.start;
+            needs_loop[at] =
+                in_loop[at] || operands.any(|x| x >= range.start && needs_loop[x - range.start]);
+            match (in_loop[at], needs_loop[at]) {
+                (true, _) => {}
+                (_, true) => after.push(statement),
+                (_, false) => before.push(statement),
+            }
+        }
+        [before, after]
+    }
+}
+
+/// Two repeats whose iterations may be done side by side.
+struct Pair<'r> {
+    repeats: [&'r Repeat; 2],
+    /// How many iterations of each precede those that both do.
+    skips: [usize; 2],
+    /// The number of iterations that both do.
+    count: usize,
+}
+
+impl<'r> Pair<'r> {
+    /// Returns `None` if too few iterations are common. `place` is the statement that defines a value.
+    fn of(
+        first: &'r Repeat,
+        second: &'r Repeat,
+        place: &dyn Fn(Value) -> Option<usize>,
+    ) -> Option<Pair<'r>> {
+        // The number of iterations by which the first is ahead of the second.
+        let of_first = |value: &Value| {
+            let statement =
+                place(*value).filter(|statement| (first.start..first.end()).contains(statement))?;
+            Some(((statement - first.start) / first.period) as isize)
+        };
+        let ahead = second.operands.iter().flatten().filter_map(|operand| {
+            let Operand::Column(column) = operand else {
+                return None;
+            };
+            let each = column.iter().enumerate();
+            each.filter_map(|(i, value)| Some(of_first(value)? - i as isize))
+                .max()
+        });
+        let ahead = ahead.max().unwrap_or(0);
+        let skips = [ahead.max(0) as usize, (-ahead).max(0) as usize];
+        let left = |repeat: &Repeat, skip: usize| repeat.count.checked_sub(skip);
+        let count = left(first, skips[0])?.min(left(second, skips[1])?);
+        if count < FEWEST || count + FEWEST < first.count.max(second.count) {
+            return None;
+        }
+        Some(Pair {
+            repeats: [first, second],
+            skips,
+            count,
+        })
+    }
+
+    /// All statements from the start of the first to the end of the second.
+    fn range(&self) -> Range<usize> {
+        self.repeats[0].start..self.repeats[1].end()
+    }
+
+    fn body(&self, which: usize, i: usize) -> Range<usize> {
+        let (repeat, skip) = (self.repeats[which], self.skips[which]);
+        let start = repeat.start + (skip + i) * repeat.period;
+        start..start + repeat.period
+    }
+
+    /// The statements of the second in a common iteration.
+    fn second(&self, i: usize) -> Range<usize> {
+        self.body(1, i)
+    }
+
+    /// The statements of all common iterations, in the order of the fused loop.
+    fn bodies(&self) -> impl Iterator<Item = usize> {
+        (0..self.count).flat_map(|i| self.body(0, i).chain(self.second(i)))
     }
 }
 

@@ -217,40 +217,27 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
         }
         let pivot = left.total(graph, k, k);
         steps.push((pivot, EliminationStep::Pivot(k)));
-        pivots.push(if is_constraint(k) {
-            Pivot {
-                coordinate: k,
-                pivot: pivot.negated(),
-                scale: total(graph, &compliance[k - coordinates]),
-            }
+        let (own, scale) = if is_constraint(k) {
+            let scale = total(graph, &compliance[k - coordinates]);
+            (pivot.negated(), scale)
         } else {
-            Pivot {
-                coordinate: k,
-                pivot,
-                scale: matrix[Shape::index(k, k)],
-            }
+            (pivot, matrix[Shape::index(k, k)])
+        };
+        pivots.push(Pivot {
+            coordinate: k,
+            pivot: own,
+            scale,
         });
-        // Column k of the Schur complement: u, of which l = u/d.
-        let mut column = Vec::new();
         let matters = |i: &usize| !eliminated[*i] && !elimination.dependent.contains(i);
-        for i in (0..n).filter(matters) {
-            let u = left.total(graph, i, k);
-            if !u.is_zero() {
-                let l = graph.quotient(u, pivot);
-                let l = graph.opaque(l);
-                steps.push((l, EliminationStep::Factor(i, k)));
-                column.push((i, u, l));
-            }
-        }
-        // Mᵢⱼ −= lᵢ uⱼ.
-        for (position, &(i, _, l)) in column.iter().enumerate() {
-            for &(j, u, _) in &column[..=position] {
-                let product = graph.product(&[(l, 1), (u, 1)]);
-                left.subtract(i, j, product);
-                if i == j && is_constraint(i) && !is_constraint(k) {
-                    compliance[i - coordinates].push(product);
-                }
-            }
+        let column = left.column(graph, k, pivot, (0..n).filter(matters));
+        let factors = column
+            .iter()
+            .map(|&(i, _, l)| (l, EliminationStep::Factor(i, k)));
+        steps.extend(factors);
+        let products = left.subtract_column(graph, &column);
+        if !is_constraint(k) {
+            let of_constraints = products.into_iter().filter(|(i, _)| is_constraint(*i));
+            of_constraints.for_each(|(i, product)| compliance[i - coordinates].push(product));
         }
         // fᵢ −= lᵢ fₖ.
         let force = total(graph, &reduced[k]);
@@ -267,7 +254,24 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
             below: column.iter().map(|&(i, _, l)| (i, l)).collect(),
         });
     }
-    // aₖ = fₖ/dₖ − Σ lᵢ aᵢ, last pivot first.
+    let mut accelerations = back_substituted(graph, &columns, n, &mut steps);
+    let multipliers = accelerations.split_off(*coordinates);
+    Solution {
+        accelerations,
+        multipliers: multipliers.into_iter().map(Scaled::negated).collect(),
+        pivots,
+        columns,
+        steps,
+    }
+}
+
+/// Back substitution, `aₖ = fₖ/dₖ − Σ lᵢ aᵢ`, last pivot first.
+fn back_substituted(
+    graph: &mut Graph,
+    columns: &[Column],
+    n: usize,
+    steps: &mut Vec<(Scaled, EliminationStep)>,
+) -> Vec<Scaled> {
     let mut accelerations = vec![Scaled::ZERO; n];
     for Column { k, scaled, below } in columns.iter().rev() {
         let mut terms = vec![*scaled];
@@ -281,14 +285,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
             steps.push((accelerations[*k], EliminationStep::Solution(*k)));
         }
     }
-    let multipliers = accelerations.split_off(*coordinates);
-    Solution {
-        accelerations,
-        multipliers: multipliers.into_iter().map(Scaled::negated).collect(),
-        pivots,
-        columns,
-        steps,
-    }
+    accelerations
 }
 
 /// One step of the elimination: `scaled` is fₖ/dₖ, `below` holds the rows i and multipliers lᵢ.
@@ -328,6 +325,44 @@ impl Entries {
 
     fn subtract(&mut self, i: usize, j: usize, term: Scaled) {
         self.terms[Shape::index(i, j)].push(term.negated());
+    }
+
+    /// Column k below its pivot d, in these rows: u, of which l = u/d, where it is not zero.
+    fn column(
+        &self,
+        graph: &mut Graph,
+        k: usize,
+        pivot: Scaled,
+        rows: impl Iterator<Item = usize>,
+    ) -> Vec<(usize, Scaled, Scaled)> {
+        let mut column = Vec::new();
+        for i in rows {
+            let u = self.total(graph, i, k);
+            if !u.is_zero() {
+                let l = graph.quotient(u, pivot);
+                column.push((i, u, graph.opaque(l)));
+            }
+        }
+        column
+    }
+
+    /// Mᵢⱼ −= lᵢ uⱼ; returns what was subtracted from each entry of the diagonal.
+    fn subtract_column(
+        &mut self,
+        graph: &mut Graph,
+        column: &[(usize, Scaled, Scaled)],
+    ) -> Vec<(usize, Scaled)> {
+        let mut of_diagonal = Vec::with_capacity(column.len());
+        for (position, &(i, _, l)) in column.iter().enumerate() {
+            for &(j, u, _) in &column[..=position] {
+                let product = graph.product(&[(l, 1), (u, 1)]);
+                self.subtract(i, j, product);
+                if i == j {
+                    of_diagonal.push((i, product));
+                }
+            }
+        }
+        of_diagonal
     }
 
     fn total(&self, graph: &mut Graph, i: usize, j: usize) -> Scaled {

@@ -121,22 +121,7 @@ pub fn split(whole: &Function, apart: Stages) -> Vec<Function> {
         part(guard.pivot).max(part(guard.scale)).max(first_guarded)
     };
 
-    // The last part that reads each value.
-    let mut read_until = parts.clone();
-    let mut read = |value: Value, by: usize| {
-        read_until[value.index()] = read_until[value.index()].max(by);
-    };
-    for (index, op) in whole.code.iter().enumerate() {
-        op.operands()
-            .for_each(|operand| read(operand, parts[index]));
-    }
-    for guard in &whole.guards {
-        let by = guarded_in(guard);
-        read(guard.pivot, by);
-        read(guard.scale, by);
-    }
-    whole.results.iter().for_each(|&value| read(value, last));
-
+    let read_until = last_reads(whole, &parts, guarded_in, last);
     let mut functions: Vec<Function> = Vec::with_capacity(roles.len());
     let mut handed: Vec<Value> = Vec::new();
     for (number, &role) in roles.iter().enumerate() {
@@ -188,6 +173,30 @@ pub fn split(whole: &Function, apart: Stages) -> Vec<Function> {
         handed = next;
     }
     functions
+}
+
+/// The last part that reads each value; results are read in the `last` one.
+fn last_reads(
+    whole: &Function,
+    parts: &[usize],
+    guarded_in: impl Fn(&Guard) -> usize,
+    last: usize,
+) -> Vec<usize> {
+    let mut read_until = parts.to_vec();
+    let mut read = |value: Value, by: usize| {
+        read_until[value.index()] = read_until[value.index()].max(by);
+    };
+    for (index, op) in whole.code.iter().enumerate() {
+        op.operands()
+            .for_each(|operand| read(operand, parts[index]));
+    }
+    for guard in &whole.guards {
+        let by = guarded_in(guard);
+        read(guard.pivot, by);
+        read(guard.scale, by);
+    }
+    whole.results.iter().for_each(|&value| read(value, last));
+    read_until
 }
 
 /// For each value the part that computes it, or reads it first.

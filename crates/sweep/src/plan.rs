@@ -40,7 +40,7 @@ pub struct Plan {
     pub until: f64,
     /// Relative and absolute tolerance of each step.
     pub tolerance: f64,
-    /// The method of integration; [`AUTO`] if each run chooses its methods.
+    /// The method of integration; [`AUTO`] if each run chooses its methods, as one of all runs of the plan, which share the derivation of a series.
     pub method: String,
     /// The most steps of a run.
     pub max_steps: u64,

@@ -662,7 +662,7 @@ impl Sweep {
             .forget_steps();
         let simulation = match self.method {
             Some(method) => simulation.method(method),
-            None => simulation.automatic(),
+            None => simulation.automatic().one_of(plan.runs()),
         };
         let asks_for_power = (plan.reduce.iter()).any(|of| of.function == Function::Power);
         let simulation = if asks_for_power && plan.after.is_some() {

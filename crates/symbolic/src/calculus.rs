@@ -362,17 +362,7 @@ fn partial_function(
             let divisor = arena.sum(&[one, (square, Rational::ONE)]);
             arena.product(&[(divisor, -1)])
         }
-        // atan2(x, y), the angle of the point (y, x): by x, y/(x² + y²); by y, −x/(x² + y²)
-        Function::Atan2 => {
-            let squares = [x, y].map(|id| arena.product(&[(id, 2)]));
-            let divisor = arena.sum(&squares.map(|id| (id, Rational::ONE)));
-            if position == 0 {
-                arena.product(&[(y, 1), (divisor, -1)])
-            } else {
-                let slope = arena.product(&[(x, 1), (divisor, -1)]);
-                arena.scaled(Rational::MINUS_ONE, slope)
-            }
-        }
+        Function::Atan2 => partial_of_angle(arena, [x, y], position),
         // (sinh x)′ = cosh x
         Function::Sinh => arena.function(Function::Cosh, &[x]),
         // (cosh x)′ = sinh x
@@ -395,31 +385,43 @@ fn partial_function(
         Function::Abs => arena.function(Function::Sign, &[x]),
         // sign′ = 0, except at 0
         Function::Sign => Arena::ZERO,
-        // The derivative by the smaller (larger) argument is 1, by the other 0: (1 ± sign(y −
-        // x))/2. If both are equal each gets one half, so that they still add up to 1.
-        Function::Min | Function::Max => {
-            let (other, this) = if position == 0 { (y, x) } else { (x, y) };
-            let difference = arena.sum(&[(other, Rational::ONE), minus(this)]);
-            let sign = arena.function(Function::Sign, &[difference]);
-            let factor = if function == Function::Min {
-                Rational::ONE
-            } else {
-                Rational::MINUS_ONE
-            };
-            let double = arena.sum(&[one, (sign, factor)]);
-            arena.half(double)
-        }
-        // x^y by x: y·x^(y−1); by y: x^y·ln x
-        Function::Pow => {
-            if position == 0 {
-                let exponent = arena.sum(&[(y, Rational::ONE), minus(Arena::ONE)]);
-                let power = arena.function(Function::Pow, &[x, exponent]);
-                arena.product(&[(y, 1), (power, 1)])
-            } else {
-                let logarithm = arena.function(Function::Ln, &[x]);
-                arena.product(&[(value, 1), (logarithm, 1)])
-            }
-        }
+        Function::Min => partial_of_extreme(arena, Rational::ONE, [x, y], position),
+        Function::Max => partial_of_extreme(arena, Rational::MINUS_ONE, [x, y], position),
+        Function::Pow => partial_of_power(arena, [x, y], value, position),
+    }
+}
+
+/// Of `atan2(x, y)`, the angle of the point `(y, x)`: by x, `y/(x² + y²)`; by y, `−x/(x² + y²)`.
+fn partial_of_angle(arena: &mut Arena, [x, y]: [Id; 2], position: usize) -> Id {
+    let squares = [x, y].map(|id| arena.product(&[(id, 2)]));
+    let divisor = arena.sum(&squares.map(|id| (id, Rational::ONE)));
+    if position == 0 {
+        arena.product(&[(y, 1), (divisor, -1)])
+    } else {
+        let slope = arena.product(&[(x, 1), (divisor, -1)]);
+        arena.scaled(Rational::MINUS_ONE, slope)
+    }
+}
+
+/// Of the smaller of two numbers, where `sign` is 1, or of the larger, where it is −1. The derivative by that argument is 1, by the other 0:
+/// `(1 ± sign(y − x))/2`. If both are equal each gets one half, so that they still add up to 1.
+fn partial_of_extreme(arena: &mut Arena, sign: Rational, [x, y]: [Id; 2], position: usize) -> Id {
+    let (other, this) = if position == 0 { (y, x) } else { (x, y) };
+    let difference = arena.sum(&[(other, Rational::ONE), (this, Rational::MINUS_ONE)]);
+    let side = arena.function(Function::Sign, &[difference]);
+    let double = arena.sum(&[(Arena::ONE, Rational::ONE), (side, sign)]);
+    arena.half(double)
+}
+
+/// Of `x^y`, whose node is `value`: by x, `y·x^(y−1)`; by y, `x^y·ln x`.
+fn partial_of_power(arena: &mut Arena, [x, y]: [Id; 2], value: Id, position: usize) -> Id {
+    if position == 0 {
+        let exponent = arena.sum(&[(y, Rational::ONE), (Arena::ONE, Rational::MINUS_ONE)]);
+        let power = arena.function(Function::Pow, &[x, exponent]);
+        arena.product(&[(y, 1), (power, 1)])
+    } else {
+        let logarithm = arena.function(Function::Ln, &[x]);
+        arena.product(&[(value, 1), (logarithm, 1)])
     }
 }
 

@@ -95,86 +95,132 @@ impl<'d> BoundKind<'d> {
     /// The error in a value, which the other numbers follow; none if they are unknown, which is NaN.
     fn violation(self, numbers: &[f64]) -> Option<(Code, String)> {
         let value = *numbers.first()?;
-        let (is_wrong, code, words) = match self {
-            BoundKind::Mass => (value <= 0.0, Code::NotPositive, "a mass must be positive"),
+        if let BoundKind::Tensor(_) = self {
+            let message = tensor::flaw(numbers.try_into().ok()?)?;
+            return Some((Code::ImpossibleInertia, message));
+        }
+        let (demand, code, words) = self.rule();
+        let below = match demand {
+            Demand::NotBelowOther => format!(" below {}", numbers.get(1)?),
+            _ => String::new(),
+        };
+        let is_wrong = demand.is_violated(value, numbers.get(1).copied());
+        is_wrong.then(|| match self {
+            BoundKind::Convex => (code, words.to_owned()),
+            _ => (code, format!("{words}, found {value}{below}")),
+        })
+    }
+
+    /// What the number must be, and the error if it is not.
+    fn rule(self) -> (Demand, Code, &'static str) {
+        match self {
+            BoundKind::Tensor(_) => (
+                Demand::Finite,
+                Code::ImpossibleInertia,
+                "a moment of inertia must be a finite number",
+            ),
+            BoundKind::Convex => (
+                Demand::Positive,
+                Code::OutsideDomain,
+                "these are not the corners of a convex polygon, listed counterclockwise, so that it lies to the left of every face",
+            ),
+            BoundKind::Mass => (
+                Demand::Positive,
+                Code::NotPositive,
+                "a mass must be positive",
+            ),
             BoundKind::Moment => (
-                value < 0.0,
+                Demand::NotNegative,
                 Code::NotPositive,
                 "a moment of inertia must not be negative",
             ),
-            BoundKind::Tensor(_) => {
-                let message = tensor::flaw(numbers.try_into().ok()?)?;
-                return Some((Code::ImpossibleInertia, message));
-            }
-            BoundKind::Radius => (value <= 0.0, Code::NotPositive, "a radius must be positive"),
-            BoundKind::Convex => {
-                let message = "these are not the corners of a convex polygon, listed counterclockwise, so that it lies to the left of every face";
-                return (value <= 0.0).then(|| (Code::OutsideDomain, message.to_owned()));
-            }
+            BoundKind::Radius => (
+                Demand::Positive,
+                Code::NotPositive,
+                "a radius must be positive",
+            ),
             BoundKind::Friction => (
-                value < 0.0,
+                Demand::NotNegative,
                 Code::NotPositive,
                 "a coefficient of friction must not be negative",
             ),
             BoundKind::RollingResistance => (
-                value < 0.0,
+                Demand::NotNegative,
                 Code::NotPositive,
                 "a coefficient of rolling resistance must not be negative",
             ),
-            BoundKind::StaticFriction(_) => {
-                let words = "the coefficient of static friction must not be less than that of sliding friction";
-                let other = *numbers.get(1)?;
-                let message = format!("{words}, found {value} below {other}");
-                return (value < other).then_some((Code::OutsideDomain, message));
-            }
+            BoundKind::StaticFriction(_) => (
+                Demand::NotBelowOther,
+                Code::OutsideDomain,
+                "the coefficient of static friction must not be less than that of sliding friction",
+            ),
             BoundKind::Restitution => (
-                !(0.0..=1.0).contains(&value),
+                Demand::UpToOne,
                 Code::OutsideDomain,
                 "a coefficient of restitution must lie between 0 and 1",
             ),
             BoundKind::ContactStiffness => (
-                value <= 0.0,
+                Demand::Positive,
                 Code::NotPositive,
                 "the stiffness of a contact must be positive",
             ),
             BoundKind::ContactDamping => (
-                value < 0.0,
+                Demand::NotNegative,
                 Code::NotPositive,
                 "the damping of a contact must not be negative",
             ),
-            BoundKind::Unloading(_) => {
-                let words = "the unloading stiffness of a layer must not be less than its loading stiffness";
-                let other = *numbers.get(1)?;
-                let message = format!("{words}, found {value} below {other}");
-                return (value < other).then_some((Code::OutsideDomain, message));
-            }
+            BoundKind::Unloading(_) => (
+                Demand::NotBelowOther,
+                Code::OutsideDomain,
+                "the unloading stiffness of a layer must not be less than its loading stiffness",
+            ),
             BoundKind::StopRange => (
-                value < 0.0,
+                Demand::NotNegative,
                 Code::OutsideDomain,
                 "a stop acts below `below` and above `above`, so that `above` less `below` must not be negative",
             ),
             BoundKind::Stiffness => (
-                value < 0.0,
+                Demand::NotNegative,
                 Code::NegativeCoefficient,
                 "a spring with negative stiffness pushes away from its rest position",
             ),
             BoundKind::Drag => (
-                value < 0.0,
+                Demand::NotNegative,
                 Code::NotPositive,
                 "drag opposes motion: its coefficient, area and density must not be negative",
             ),
             BoundKind::Derived => (
-                !value.is_finite(),
+                Demand::Finite,
                 Code::OutsideDomain,
                 "a derived parameter must be a finite number",
             ),
             BoundKind::Damping => (
-                value < 0.0,
+                Demand::NotNegative,
                 Code::NegativeCoefficient,
                 "a damper with negative damping adds energy",
             ),
-        };
-        is_wrong.then(|| (code, format!("{words}, found {value}")))
+        }
+    }
+}
+
+/// What a number must be. NaN, which is unknown, violates nothing but the demand of a finite number or of one up to 1.
+enum Demand {
+    Positive,
+    NotNegative,
+    UpToOne,
+    Finite,
+    NotBelowOther,
+}
+
+impl Demand {
+    fn is_violated(&self, value: f64, other: Option<f64>) -> bool {
+        match self {
+            Demand::Positive => value <= 0.0,
+            Demand::NotNegative => value < 0.0,
+            Demand::UpToOne => !(0.0..=1.0).contains(&value),
+            Demand::Finite => !value.is_finite(),
+            Demand::NotBelowOther => other.is_some_and(|other| value < other),
+        }
     }
 }
 

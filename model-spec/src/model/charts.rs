@@ -25,8 +25,8 @@ use lagrangian_symbolic::{Dag, Expr, Function, Id, Node, Rational, Symbol, reach
 
 use super::element::{Contribution, Element, Load};
 use super::{
-    ContactGeometry, Coordinate, Inertia, Model, Name, PoseChange, Response, Rotation, Stages,
-    stage,
+    Body, Contact, ContactGeometry, Coordinate, Inertia, Model, Name, PoseChange, Response,
+    Rotation, Stages, stage,
 };
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::Span;
@@ -229,20 +229,8 @@ impl<'d> Rewriting<'_, 'd, '_> {
         }
         self.rewrite_frames(&mut machine);
         for body in &mut machine.bodies {
-            let what = format!("the body `{}`", body.name);
-            let mut places: Vec<&mut Expr<'d>> = body.at.iter_mut().collect();
-            places.push(&mut body.mass);
-            places.extend(body.local.iter_mut().flat_map(|local| &mut local.point));
-            places.extend(body.outline.iter_mut().flatten());
-            match &mut body.inertia {
-                Inertia::Particle => {}
-                Inertia::Planar(inertia) => places.push(inertia),
-                Inertia::Tensor(inertia) => places.extend(inertia),
-            }
-            if let Rotation::Angle(angle) = &mut body.rotation {
-                places.push(angle);
-            }
-            self.put(places, &what, body.position_span);
+            let (what, span) = (format!("the body `{}`", body.name), body.position_span);
+            self.put(expressions_of_body(body), &what, span);
         }
         for element in &mut machine.elements {
             self.share_loads(element);
@@ -260,26 +248,8 @@ impl<'d> Rewriting<'_, 'd, '_> {
             self.put(places, &what, circle.span);
         }
         for contact in &mut machine.contacts {
-            let what = format!("the contact `{}`", contact.name);
-            let mut places: Vec<&mut Expr<'d>> = Vec::new();
-            match &mut contact.geometry {
-                ContactGeometry::Circles(_) | ContactGeometry::Corner(_) => {}
-                ContactGeometry::Point { point, .. } => {
-                    places.extend(point.center.iter_mut().chain([&mut point.radius]));
-                }
-                ContactGeometry::Expressions { gap, slip, across } => {
-                    places.extend([gap, slip]);
-                    places.extend(across);
-                }
-            }
-            match &mut contact.response {
-                Response::Rigid { restitution, .. } => places.extend(restitution),
-                Response::Compliant { parameters, .. } => places.extend(parameters),
-            }
-            places.extend(&mut contact.friction);
-            places.extend(&mut contact.static_friction);
-            places.extend(&mut contact.rolling_resistance);
-            self.put(places, &what, contact.span);
+            let (what, span) = (format!("the contact `{}`", contact.name), contact.span);
+            self.put(expressions_of_contact(contact), &what, span);
         }
         let own = machine.outputs.len().saturating_sub(self.formulas);
         let (outputs, formulas) = machine.outputs.split_at_mut(own);
@@ -510,4 +480,44 @@ impl<'d> Rewriting<'_, 'd, '_> {
         }
         [cos * scale, sin * scale]
     }
+}
+
+/// The expressions of a body.
+fn expressions_of_body<'m, 'd>(body: &'m mut Body<'d>) -> Vec<&'m mut Expr<'d>> {
+    let mut places: Vec<&mut Expr<'d>> = body.at.iter_mut().collect();
+    places.push(&mut body.mass);
+    places.extend(body.local.iter_mut().flat_map(|local| &mut local.point));
+    places.extend(body.outline.iter_mut().flatten());
+    match &mut body.inertia {
+        Inertia::Particle => {}
+        Inertia::Planar(inertia) => places.push(inertia),
+        Inertia::Tensor(inertia) => places.extend(inertia),
+    }
+    if let Rotation::Angle(angle) = &mut body.rotation {
+        places.push(angle);
+    }
+    places
+}
+
+/// The expressions of a contact.
+fn expressions_of_contact<'m, 'd>(contact: &'m mut Contact<'d>) -> Vec<&'m mut Expr<'d>> {
+    let mut places: Vec<&mut Expr<'d>> = Vec::new();
+    match &mut contact.geometry {
+        ContactGeometry::Circles(_) | ContactGeometry::Corner(_) => {}
+        ContactGeometry::Point { point, .. } => {
+            places.extend(point.center.iter_mut().chain([&mut point.radius]));
+        }
+        ContactGeometry::Expressions { gap, slip, across } => {
+            places.extend([gap, slip]);
+            places.extend(across);
+        }
+    }
+    match &mut contact.response {
+        Response::Rigid { restitution, .. } => places.extend(restitution),
+        Response::Compliant { parameters, .. } => places.extend(parameters),
+    }
+    places.extend(&mut contact.friction);
+    places.extend(&mut contact.static_friction);
+    places.extend(&mut contact.rolling_resistance);
+    places
 }

@@ -514,7 +514,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.push(diagnostic.help("write `turn(angle)`"));
             return None;
         }
-        let reason = "a frame turns by four pure numbers, or about an axis by an angle";
+        let reason = "a frame is turned by the four pure numbers of a quaternion, or about an axis by an angle";
         let all: Vec<_> = arguments
             .iter()
             .map(|argument| self.scalar_in(argument, Unit::ONE, reason, scope))
@@ -525,9 +525,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let is_coordinate =
                 scalar.expr.as_symbol().is_some() && scalar.expr.stage() == stage::POSITION;
             let message = if !is_coordinate {
-                "the four numbers that turn a frame must be coordinates, and this is not one"
+                "the four components of a quaternion must be coordinates, and this is not one"
             } else if e.contains(&scalar.expr) {
-                "the four numbers that turn a frame must be four different coordinates"
+                "the four components of a quaternion must be four different coordinates"
             } else {
                 e.push(scalar.expr);
                 continue;
@@ -545,9 +545,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             None => self.quaternions.push((e, link.span)),
             Some((other, _)) if *other == e => {}
             Some(&(_, span)) => {
-                let message = "one of these four coordinates also turns another frame, together with other coordinates";
+                let message = "one of these four coordinates is also part of the quaternion of another frame, together with other coordinates";
                 let diagnostic = Diagnostic::new(Code::WrongArguments, link.span, message);
-                let help = "give each turn four coordinates of its own, or the same four in the same order";
+                let help = "give each quaternion four coordinates of its own, or the same four in the same order";
                 self.push(
                     diagnostic
                         .note(span, "the other frame is turned here")
@@ -572,7 +572,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             let Some(first) = four[0] else { continue };
             let name = &first.name;
-            let message = "the four numbers that turn this frame all start at 0, where they define no rotation";
+            let message =
+                "all four components of this quaternion start at 0, where they define no rotation";
             let diagnostic = Diagnostic::new(Code::DivisionByZero, *span, message);
             let diagnostic = diagnostic.note(first.span, "the first of them");
             self.push(diagnostic.help(format!("`{name}: 1 = 1` starts it without rotation")));

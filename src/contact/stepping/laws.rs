@@ -1,4 +1,4 @@
-//! The laws by which contacts give their impulses in a step of time stepping.
+//! The laws for the impulses of contacts in a step of time stepping.
 //!
 //! **Static friction.** A contact that rests when the step begins, because it stuck in the step before or because neither its gap nor its slip changes, may stick
 //! with its static friction; any other one slips, or is stopped, with its kinetic friction:
@@ -8,24 +8,24 @@
 //! ```
 //!
 //! For fixed normal impulses the values of this law are convex and its graph is closed, so that there always is a solution, and often there are two: one that sticks
-//! and one that slips. Contacts begin with the cone of their static friction; those that slip with it get that of their kinetic friction, and all are asked again.
-//! A contact that was closed and whose slip turns within the step has passed through rest, and may stick there with its static friction if all then hold. Each cone
+//! and one that slips. Contacts begin with the cone of their static friction; those that slip with it get that of their kinetic friction, and all are solved for again.
+//! If the slip of a contact that was closed reverses within the step, it has passed through rest, and may stick there with its static friction if all contacts then hold. Each cone
 //! changes at most twice, so this ends after at most `2 n + 1` problems of fixed cones. (Laws with a friction that falls at rest: R. I. Leine, N. van de Wouw,
 //! *Stability and Convergence of Mechanical Systems with Unilateral Constraints*, 2008, chapter 5.)
 //!
-//! **Laws of impact.** `newton` with all contacts at once is part of the problem of the step, as Moreau has it. Other laws say what impulses do at an instant,
-//! and know no forces that act meanwhile: with them a compression by the weight of what rests would be followed by an expansion. So a step in which something
-//! that was open meets is taken as a half with the forces, the impact, and the other half:
+//! **Laws of impact.** `newton` with all contacts at once is part of the problem of the step, as Moreau has it. Other laws define impulses at a single instant,
+//! without forces that act meanwhile: with them a compression by the weight of a body at rest would be followed by an expansion. Therefore a step in which an open
+//! contact closes is divided into half a step with the forces, the impact, and another half step:
 //!
 //! ```text
-//! M (v' − v)   = h/2 f + W Λ'      for what was closed in the step before, without restitution
+//! M (v' − v)   = h/2 f + W Λ'      for contacts closed in the previous step, without restitution
 //! M (v* − v')  = W Λ*              by the law of impact
-//! M (v⁺ − v*)  = h/2 f + W Λ''     for what touches, without restitution
+//! M (v⁺ − v*)  = h/2 f + W Λ''     for touching contacts, without restitution
 //! ```
 //!
-//! and any other step is one problem without restitution. The halves take energy and never add any beside the work of the forces, so that impulses add none but
-//! what the law of impact does. A law for one contact at a time, or that of a `sequence`, takes the contacts one after the other, the one that closes fastest first,
-//! a limited number of times; what still closes then is stopped by the second half, without restitution.
+//! and any other step is one problem without restitution. The impulses of the half steps dissipate energy, so that only the law of impact can add energy besides
+//! the work of the forces. A law for one contact at a time, or that of a `sequence`, is applied to one contact after the other, the one that closes fastest first,
+//! a limited number of times; a contact that is still closing then is stopped by the second half step, without restitution.
 
 use std::vec;
 use std::vec::Vec;

@@ -1,4 +1,4 @@
-//! Moves the end of a step of time stepping out of what it has penetrated.
+//! Removes the penetrations at the end of a step of time stepping.
 
 use std::vec::Vec;
 

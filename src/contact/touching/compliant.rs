@@ -1,11 +1,11 @@
-//! Contacts that yield: the force of one, what it stores and loses, and when it opens.
+//! Compliant contacts: their force, the energy that they store and lose, and when they open.
 //!
 //! ```text
 //! d = −g,  N = k d + b ḋ,  K d^(3/2),  K d^(3/2) (1 + c ḋ),  k₁ d or k₂ (d − d₀)  with d₀ = d* (1 − k₁/k₂)
 //! ```
 //!
-//! It is pressed as long as N > 0 and it is penetrated. What it stores is lost where its force vanishes before it is
-//! back; a layer loses `(1 − k₁/k₂) k₁ d ḋ` while it is loaded, so that `½ (1 − k₁/k₂) k₁ d*²` have crushed it.
+//! A contact presses as long as it is penetrated and N > 0. If its force vanishes while it is still penetrated, the stored energy
+//! is lost. A layer loses the power `(1 − k₁/k₂) k₁ d ḋ` while it is loaded, so that crushing it takes `½ (1 − k₁/k₂) k₁ d*²`.
 
 use std::vec;
 use std::vec::Vec;

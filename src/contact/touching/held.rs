@@ -184,7 +184,9 @@ impl UnilateralState {
         let mut held = Vec::new();
         for k in self.in_order() {
             let mode = modes[k];
-            if mode != Mode::Open && !self.is_compliant(k) && self.carrier(k).is_none() {
+            let has_normal =
+                !self.is_compliant(k) && self.carrier(k).is_none() && !self.is_guide(k);
+            if mode != Mode::Open && has_normal {
                 held.push(2 * k);
             }
             if mode == Mode::Sticks && self.has_friction(k) {

@@ -137,7 +137,12 @@ impl UnilateralState {
                 rounding: here.gap_rounding(k),
             },
         };
-        let [presses, loads] = if pressed == k {
+        let [presses, loads] = if self.is_guide(k) {
+            [
+                self.margin_of_side(here, (normal, rounding), k),
+                Margin::ENDLESS,
+            ]
+        } else if pressed == k {
             self.margins_of_compliance(here, k).unwrap_or([
                 Margin {
                     value: normal,
@@ -171,13 +176,29 @@ impl UnilateralState {
                     None => tangential.abs(),
                 };
                 Margin {
-                    value: friction * normal - used,
+                    value: friction * self.pressing(k, normal) - used,
                     rounding: rounding * (1.0 + friction),
                 }
             }
             Mode::Open | Mode::Slides(_) | Mode::Sticks => Margin::ENDLESS,
         };
         [presses, slips_or_sticks, loads, stays]
+    }
+
+    /// By how much a guide presses to its side, where that decides on its friction.
+    fn margin_of_side(
+        &self,
+        here: &ContactKinematics,
+        (normal, rounding): (f64, f64),
+        k: usize,
+    ) -> Margin {
+        match self.modes[k] {
+            Mode::Slides(_) if here.friction(k)[0] > 0.0 => Margin {
+                value: self.sides[k] * normal,
+                rounding,
+            },
+            _ => Margin::ENDLESS,
+        }
     }
 
     /// Of contacts that share a load: they hold as long as all of them can hold with some distribution of the forces.

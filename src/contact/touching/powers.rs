@@ -1,4 +1,4 @@
-//! What the forces of contacts do and take.
+//! The powers of contact forces: work and losses.
 
 use super::super::drives::{ActingContact, Drives};
 use super::reaction::ContactMemory;

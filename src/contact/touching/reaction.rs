@@ -5,6 +5,7 @@ use std::vec::Vec;
 
 use super::super::delassus::{Inertia, write_matrix};
 use super::super::drives::DrivesMemory;
+use super::super::guides::Guides;
 use super::super::kinematics::ContactKinematics;
 use super::super::undetermined::{self, OpenForces};
 use super::super::{ContactTrouble, lcp};
@@ -42,6 +43,8 @@ pub(super) struct OpenEquations {
     pub unknowns: Vec<(usize, usize)>,
     /// The change of all unknowns for a unit of each undetermined one, none of which changes the accelerations.
     pub of_unit: Vec<Vec<f64>>,
+    /// The changes of the reactions of all closed contacts, of those that are guides; nothing if none is.
+    pub of_reactions: Vec<Vec<f64>>,
 }
 
 impl Reaction {
@@ -98,6 +101,7 @@ pub(crate) struct ContactMemory<V, M> {
 #[derive(Clone, Debug, Default)]
 struct StateOfContacts {
     modes: Vec<Mode>,
+    sides: Vec<f64>,
     compliance: Vec<Option<ComplianceState>>,
     beginning_slips: Vec<f64>,
     continues_through_rest: bool,
@@ -106,6 +110,7 @@ struct StateOfContacts {
 impl StateOfContacts {
     fn set(&mut self, touching: &UnilateralState) {
         self.modes.clone_from(&touching.modes);
+        self.sides.clone_from(&touching.sides);
         self.compliance.clone_from(&touching.compliance);
         self.beginning_slips.clone_from(&touching.beginning_slips);
         self.continues_through_rest = touching.continues_through_rest;
@@ -113,6 +118,7 @@ impl StateOfContacts {
 
     fn is_of(&self, touching: &UnilateralState) -> bool {
         self.modes == touching.modes
+            && self.sides == touching.sides
             && self.compliance == touching.compliance
             && self.beginning_slips == touching.beginning_slips
             && self.continues_through_rest == touching.continues_through_rest
@@ -161,6 +167,7 @@ pub(super) struct ContactEquations<V, M> {
     free: V,
     mass_matrix: M,
     inertia: Inertia,
+    guides: Guides,
     /// The closed contacts, and the ratio of the tangential to the normal force of each.
     closed: Vec<usize>,
     ratios: Vec<f64>,
@@ -189,6 +196,7 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
             free: q.zeros_like(),
             mass_matrix: M::zeros(n * n),
             inertia: Inertia::default(),
+            guides: Guides::default(),
             closed: Vec::new(),
             ratios: Vec::new(),
             images: Vec::new(),
@@ -237,9 +245,10 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
         &mut self,
         touching: &UnilateralState,
         system: &S,
-        (t, q): (f64, &V),
+        at: At<'_, S>,
         here: &ContactKinematics,
     ) -> Result<(), Singular> {
+        let At { t, q, .. } = at;
         self.inertia
             .evaluate(system, (t, q), &mut self.mass_matrix)?;
         self.closed.clear();
@@ -258,11 +267,17 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
         }
         let images = &self.images[..width];
         write_matrix(images, &mut self.g, &mut self.nonzero_entries);
+        if touching.has_guides() {
+            self.guides
+                .evaluate(system, (t, q), |direction| here.row(direction))?;
+            self.guides.evaluate_loads(system, at);
+            (self.guides).complete(&self.inertia, &self.closed, images, &mut self.g);
+        }
         Ok(())
     }
 
     /// Sorts the forces of the closed contacts into those that are known and those that are not. Of what slides the tangential force is a share of
-    /// the normal one; what sticks has two unknowns. The answer is whether any is known.
+    /// the normal one; what sticks has two unknowns, but for a guide, whose reaction follows from all others. The answer is whether any is known.
     fn sort_forces(&mut self, touching: &UnilateralState, here: &ContactKinematics) -> bool {
         let reaction = &mut self.reaction;
         self.unknowns.clear();
@@ -279,7 +294,7 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
                     reaction.forces[k] = [0.0, ratio * reaction.forces[on][0]];
                     reaction.sizes[k] = reaction.sizes[on];
                 }
-            } else {
+            } else if !touching.is_guide(k) || ratio != 0.0 {
                 self.unknowns.push((place, 0));
             }
             if touching.modes[k] == Mode::Sticks && touching.has_friction[k] {
@@ -307,6 +322,12 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
                 share * self.entry(2 * place, 2 * other + 1)
             });
             let coupled = self.ratios[place] * self.entry(2 * place, 2 * place + 1) + by_rolling;
+            // With the opposite sign a guide would press to the other side.
+            let coupled = if touching.is_guide(k) {
+                -coupled.abs()
+            } else {
+                coupled
+            };
             own + coupled <= ROUNDING_OF_FORCES * own && coupled < 0.0
         };
         let mut closed = self.closed.iter().copied().enumerate();
@@ -352,6 +373,10 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
                 let (other, other_part) = self.unknowns[j];
                 let column = |part: usize| self.entry(row, 2 * other + part);
                 let entry = match other_part {
+                    // Its own force is what a guide presses with.
+                    0 if touching.is_guide(self.closed[other]) => {
+                        self.ratios[other] * column(1) - column(0)
+                    }
                     0 => {
                         let own = column(0) + self.ratios[other] * column(1);
                         self.carried(touching, other)
@@ -363,11 +388,18 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
                 };
                 self.left[i * size + j] = self.units[i] * entry * self.units[j];
             }
-            let [value, terms] = here.acceleration(2 * k + part, &self.reaction.a);
-            self.right[i] = -value * self.units[i];
             let own = self.entry(row, row);
-            if own > 0.0 {
+            let (of_rates, [value, terms]) = if touching.is_guide(k) && part == 0 {
+                let reaction = self
+                    .guides
+                    .reaction(k, &self.reaction.a, &self.reaction.forces);
+                (0.0, reaction.map(|of| own * of))
+            } else {
                 let of_rates = here.acceleration_rounding(k, touching.greatest_rate());
+                (of_rates, here.acceleration(2 * k + part, &self.reaction.a))
+            };
+            self.right[i] = -value * self.units[i];
+            if own > 0.0 {
                 let terms = terms + of_rates / ROUNDING_OF_FORCES;
                 let known = &mut self.reaction.sizes[k];
                 *known = known.max(terms / own);
@@ -385,6 +417,26 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
                 if let Some((leaning, share)) = self.carried(touching, place) {
                     found[leaning][1] += share * value;
                 }
+            }
+        }
+    }
+
+    /// Adds what guides press with, where it was no unknown: where they stick, or have no friction.
+    fn add_reactions(&mut self, touching: &UnilateralState) {
+        if !touching.has_guides() {
+            return;
+        }
+        let Reaction {
+            a, forces, sizes, ..
+        } = &mut self.reaction;
+        for (place, &k) in self.closed.iter().enumerate() {
+            if !touching.is_guide(k) {
+                continue;
+            }
+            let [normal, terms] = self.guides.reaction(k, a, forces);
+            sizes[k] = sizes[k].max(terms);
+            if self.ratios[place] == 0.0 {
+                forces[k][0] = normal;
             }
         }
     }
@@ -425,6 +477,22 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
         undetermined::without_effect(of_unit, &effects)
     }
 
+    /// The changes of the reactions of all closed contacts, of those that are guides, for each of these changes of the unknowns.
+    fn changes_of_reactions(
+        &self,
+        touching: &UnilateralState,
+        of_unit: &[Vec<f64>],
+    ) -> Vec<Vec<f64>> {
+        let mut found = Vec::new();
+        let mut of_reactions = Vec::new();
+        for own in of_unit.iter().filter(|_| touching.has_guides()) {
+            self.write_found(touching, own, &mut found);
+            let change = |k: &usize| self.guides.change(*k, &self.closed, &found);
+            of_reactions.push(self.closed.iter().map(change).collect());
+        }
+        of_reactions
+    }
+
     /// Finds accelerations and forces; nothing is asked of the contacts if all are open.
     fn solve<S: System<Vector = V, Matrix = M>>(
         &mut self,
@@ -433,14 +501,14 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
         at: At<'_, S>,
         here: &ContactKinematics,
     ) -> Result<(), StepError> {
-        let At { t, q, .. } = at;
+        let t = at.t;
         UnilateralState::write_free(system, at, &mut self.free)?;
         self.reaction
             .reset(self.free.as_slice(), touching.modes.len());
         if touching.is_free() {
             return Ok(());
         }
-        self.evaluate(touching, system, (t, q), here)
+        self.evaluate(touching, system, at, here)
             .map_err(|singular| StepError::Singular { singular, t })?;
         for &k in &self.closed {
             let [_, terms] = here.acceleration(2 * k + 1, &self.reaction.a);
@@ -481,10 +549,12 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
         }
         self.found = found;
         self.add_response();
+        self.add_reactions(touching);
         if !of_unit.is_empty() {
             self.reaction.open_equations = Some(OpenEquations {
                 closed: self.closed.clone(),
                 unknowns: self.unknowns.clone(),
+                of_reactions: self.changes_of_reactions(touching, &of_unit),
                 of_unit,
             });
         }
@@ -601,7 +671,7 @@ impl UnilateralState {
     /// The ratio of the tangential to the normal force of a contact that slips; 0 for others.
     pub(super) fn share(&self, here: &ContactKinematics, contact: usize) -> f64 {
         match self.modes[contact] {
-            Mode::Slides(sign) => -sign * here.friction(contact)[0],
+            Mode::Slides(sign) => -sign * self.sides[contact] * here.friction(contact)[0],
             Mode::SlidesAlong(_) => -self.slip_direction(here, contact) * here.friction(contact)[0],
             Mode::Open | Mode::Sticks => 0.0,
         }

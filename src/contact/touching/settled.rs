@@ -1,9 +1,10 @@
-//! What contacts that touch do next.
+//! Determines the next state of touching contacts.
 
 use std::vec;
 use std::vec::Vec;
 
 use super::super::delassus::{Inertia, matrix};
+use super::super::guides::Guides;
 use super::super::kinematics::ContactKinematics;
 use super::super::problem::{ContactUnknowns, SATURATED};
 use super::super::{ContactTrouble, undetermined};
@@ -62,6 +63,8 @@ pub(crate) struct Settled {
     pub modes: Vec<Mode>,
     /// Their forces along normal and tangent. Where a load may be shared in several ways, they are shared in one that every contact allows.
     pub forces: Vec<[f64; 2]>,
+    /// Of each guide the size of the terms of its reaction, in N, and 0 of other contacts.
+    pub sizes_of_guides: Vec<f64>,
     /// Contacts that share their load in another way than by the rule for undetermined forces, (E79), although the motion depends on it.
     pub shared_otherwise: Vec<usize>,
     /// Contacts that stick although their friction is used up, because others hold them, and how they would slip.
@@ -88,11 +91,11 @@ impl UnilateralState {
             closed[*k] && !known_modes.contains(&(pressing, Mode::Open))
         };
         let asked: Vec<usize> = self.in_order().filter(is_asked).collect();
-        let mut forces = vec![[0.0; 2]; closed.len()];
         if asked.is_empty() {
             return Ok(Settled {
                 modes: vec![Mode::Open; closed.len()],
-                forces,
+                forces: vec![[0.0; 2]; closed.len()],
+                sizes_of_guides: vec![0.0; closed.len()],
                 shared_otherwise: Vec::new(),
                 at_limit: Vec::new(),
             });
@@ -101,9 +104,12 @@ impl UnilateralState {
         let here = self.kinematics(system, (t, q, v));
         let singular = |singular: Singular| StepError::Singular { singular, t };
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
+        let mut guides = Guides::default();
+        (guides.evaluate(system, (t, q), |direction| here.row(direction))).map_err(singular)?;
+        guides.evaluate_loads(system, at);
         let mut settling = Settling::new(
             (self, &here, t),
-            (&inertia, &free),
+            (&inertia, &mut guides, &free),
             asked,
             (resting, known_modes),
         );
@@ -112,10 +118,7 @@ impl UnilateralState {
             if settling.take_modes(&solved) {
                 continue;
             }
-            let parts = solved.known.iter().zip(&solved.found);
-            for (&k, (known, found)) in settling.asked.iter().zip(parts) {
-                forces[k] = [known[0] + found[0], known[1] + found[1]];
-            }
+            let (forces, sizes_of_guides) = settling.forces(&solved);
             let shared_otherwise = solved.shared_otherwise.iter();
             let shared_otherwise = shared_otherwise.map(|place| settling.asked[*place]);
             let shared_otherwise = shared_otherwise.collect();
@@ -129,13 +132,18 @@ impl UnilateralState {
             let some_let_go =
                 known_modes.is_empty() && (0..modes.len()).any(|k| resting[k] && lets_go(k));
             if some_let_go
-                && let Some(held) = self.rests_together(system, at, &here, resting, &modes)
+                && let Some(held) =
+                    self.rests_together(system, at, &here, resting, (&modes, &forces))
             {
-                return Ok(held);
+                return Ok(Settled {
+                    sizes_of_guides,
+                    ..held
+                });
             }
             return Ok(Settled {
                 modes,
                 forces,
+                sizes_of_guides,
                 shared_otherwise,
                 at_limit: settling.at_limit,
             });
@@ -155,7 +163,7 @@ impl UnilateralState {
         at: At<'_, S>,
         here: &ContactKinematics,
         resting: &[bool],
-        modes: &[Mode],
+        (modes, forces): (&[Mode], &[[f64; 2]]),
     ) -> Option<Settled> {
         let at_rest = |k: usize| {
             if self.has_friction[k] {
@@ -169,6 +177,11 @@ impl UnilateralState {
             .collect();
         let mut touching = self.clone();
         touching.set_modes(held);
+        for (k, [normal, _]) in forces.iter().enumerate() {
+            if self.is_guide(k) && *normal != 0.0 {
+                touching.sides[k] = normal.signum();
+            }
+        }
         let reaction = touching.reaction_here(system, at, here).ok()?;
         let load = touching.shared_load(here, &reaction, at.t).ok()??;
         let free = Self::free(system, at).ok()?;
@@ -183,6 +196,11 @@ impl UnilateralState {
             None if touching.modes[k] == Mode::Open || self.across[k] => true,
             None => {
                 let normal = load.forces[self.carrier[k].unwrap_or(k)][0];
+                // A guide that slides must press to its side.
+                let normal = match touching.modes[k] {
+                    Mode::Sticks => self.pressing(k, normal),
+                    _ => touching.sides[k] * normal,
+                };
                 let rounding = ROUNDING_OF_FORCES * reaction.sizes[k];
                 let used = match (touching.modes[k], self.second(k)) {
                     (Mode::Sticks, None) => load.forces[k][1].abs(),
@@ -196,6 +214,7 @@ impl UnilateralState {
         is_held.then_some(Settled {
             modes: touching.modes,
             forces: load.forces,
+            sizes_of_guides: Vec::new(),
             shared_otherwise: Vec::new(),
             at_limit: Vec::new(),
         })
@@ -219,6 +238,8 @@ impl UnilateralState {
                     Mode::SlidesAlong([-along, -across])
                 }
                 Limit::Friction([along, _]) => Mode::Slides(-along),
+                // A guide that slides on presses to its other side then, which is found by its own margin.
+                Limit::Pressing if self.is_guide(k) => return None,
                 Limit::Pressing => Mode::Open,
             };
             (margin.value < 0.0).then_some((k, mode))
@@ -312,6 +333,7 @@ impl UnilateralState {
     ) -> Result<Vec<Mode>, StepError> {
         let closing: Vec<usize> = (0..modes.len())
             .filter(|k| modes[*k] != Mode::Open && self.carrier[*k].is_none() && may_open(*k))
+            .filter(|k| !self.is_guide(*k))
             .collect();
         if closing.is_empty() {
             return Ok(modes);
@@ -329,6 +351,25 @@ impl UnilateralState {
         Ok(modes)
     }
 
+    /// Lets contacts slip on that did so `before`, are at rest, and have their friction used up `at_limit` against this slip: they have begun to slip at this instant, and
+    /// their accelerations cannot tell yet whether they stick. If they stuck, they would have to begin to slip once more.
+    pub fn keep_slipping(
+        &self,
+        modes: &mut [Mode],
+        (before, at_limit): (&[Mode], &[(usize, Mode)]),
+    ) {
+        for &(k, slips) in at_limit {
+            let (own, next) = (before[k].direction(), slips.direction());
+            if own[0] * next[0] + own[1] * next[1] <= 0.0 {
+                continue;
+            }
+            modes[k] = slips;
+            if let Some(second) = self.second(k) {
+                modes[second] = slips;
+            }
+        }
+    }
+
     /// Opens what leans on an open contact.
     fn copy_openings_from_carriers(&self, modes: &mut [Mode]) {
         for (k, on) in self.carrier.iter().enumerate() {
@@ -342,7 +383,7 @@ impl UnilateralState {
 impl<'a> Settling<'a> {
     fn new(
         (touching, here, t): (&'a UnilateralState, &'a ContactKinematics, f64),
-        (inertia, free): (&Inertia, &[f64]),
+        (inertia, guides, free): (&Inertia, &mut Guides, &[f64]),
         asked: Vec<usize>,
         (resting, known_modes): (&'a [bool], &'a [(usize, Mode)]),
     ) -> Self {
@@ -350,8 +391,20 @@ impl<'a> Settling<'a> {
         let images: Vec<Vec<f64>> = (directions.iter())
             .map(|direction| inertia.image(here.row(*direction)))
             .collect();
-        let accelerations = directions.iter();
-        let accelerations = accelerations.map(|direction| here.acceleration(*direction, free));
+        let mut g = matrix(&images);
+        guides.complete(inertia, &asked, &images, &mut g);
+        let accelerations = directions.iter().enumerate();
+        let accelerations = accelerations.map(|(row, &direction)| {
+            if direction.is_multiple_of(2) && touching.is_guide(direction / 2) {
+                // What presses the guide, in the unit of its row.
+                let unit = g[row * directions.len() + row];
+                return guides
+                    .reaction(direction / 2, free, &[])
+                    .map(|of| unit * of);
+            }
+            here.acceleration(direction, free)
+        });
+        let accelerations = accelerations.collect();
         let pressing = asked.iter().map(|k| {
             let pressing = touching.carrier[*k].unwrap_or(*k);
             let pressed = touching.compliant_force_at_closing(here, pressing);
@@ -363,8 +416,8 @@ impl<'a> Settling<'a> {
             t,
             resting,
             known_modes,
-            accelerations: accelerations.collect(),
-            g: matrix(&images),
+            accelerations,
+            g,
             pressing: pressing.collect(),
             slipping: Vec::new(),
             breaks: Vec::new(),
@@ -455,6 +508,13 @@ impl<'a> Settling<'a> {
             });
         }
         Ok(match (slipping, pressing) {
+            (Some(sign), _) if self.touching.is_guide(k) => ContactUnknowns::SlidingGuide {
+                friction: kinetic,
+                forward: sign > 0.0,
+            },
+            (None, _) if self.touching.is_guide(k) => ContactUnknowns::Guide {
+                friction: static_friction,
+            },
             (Some(_), Some(_)) => ContactUnknowns::Nothing,
             (None, Some(normal)) => ContactUnknowns::Tangent {
                 friction: static_friction,
@@ -548,6 +608,29 @@ impl<'a> Settling<'a> {
         (solved.b[row] + by, ROUNDING_OF_FORCES * size)
     }
 
+    /// The forces of all contacts, and of each guide the size of the terms of its reaction.
+    fn forces(&self, solved: &SettlingForces) -> (Vec<[f64; 2]>, Vec<f64>) {
+        let mut forces = vec![[0.0; 2]; self.modes.len()];
+        let mut sizes_of_guides = vec![0.0; self.modes.len()];
+        let parts = solved.known.iter().zip(&solved.found);
+        for (place, (known, found)) in parts.enumerate() {
+            let k = self.asked[place];
+            forces[k] = [known[0] + found[0], known[1] + found[1]];
+            if self.touching.is_guide(k) {
+                (forces[k][0], sizes_of_guides[k]) = self.reaction(solved, place);
+            }
+        }
+        (forces, sizes_of_guides)
+    }
+
+    /// The reaction of a guide with these forces, and the size of its terms, in N.
+    fn reaction(&self, solved: &SettlingForces, place: usize) -> (f64, f64) {
+        let unit = self.row(2 * place)[2 * place];
+        let (near_side, rounding) = self.after(solved, 2 * place);
+        let size = rounding / (ROUNDING_OF_FORCES * unit);
+        (near_side / unit - solved.found[place][0], size)
+    }
+
     /// Takes what contacts do from their forces. The answer is whether one begins to slip whose friction is less then, so that the forces are others.
     fn take_modes(&mut self, solved: &SettlingForces) -> bool {
         let mut breaks_away = false;
@@ -578,7 +661,7 @@ impl<'a> Settling<'a> {
         if let Some(on) = self.carrier(place) {
             return self.modes[self.asked[on]] == Mode::Open;
         }
-        if self.pressing[place].is_some() {
+        if self.pressing[place].is_some() || self.touching.is_guide(self.asked[place]) {
             return false;
         }
         let (opens, rounding) = self.after(solved, 2 * place);
@@ -600,6 +683,11 @@ impl<'a> Settling<'a> {
         let tangential = solved.found[place][1];
         let normal = solved.found[self.carrier(place).unwrap_or(place)][0];
         let normal = self.pressing[place].unwrap_or(normal);
+        let normal = if self.touching.is_guide(k) {
+            self.reaction(solved, place).0.abs()
+        } else {
+            normal
+        };
         let [kinetic, at_rest] = self.here.friction(k);
         let most = at_rest * normal;
         let (slips, rounding) = self.after(solved, 2 * place + 1);

@@ -10,12 +10,22 @@ use super::{Margin, Mode, ROUNDING_OF_FORCES, UnilateralState};
 use crate::StepError;
 use crate::contact_law::shares::{self, Limit, PARTS, Sharer};
 
+/// The most guides of which both sides are tried.
+const MOST_SIDES: usize = 6;
+
 /// The distribution of forces among contacts at which the least margin is greatest.
 pub(super) struct SharedLoad {
     /// The margin of each contact that shares forces, and nothing for the others. Both tangents of a contact have that of the first.
     pub margins: Vec<Option<ShareOfLoad>>,
     /// Along normal and tangent, of every contact.
     pub forces: Vec<[f64; 2]>,
+}
+
+impl SharedLoad {
+    fn least_margin(&self) -> f64 {
+        let margins = self.margins.iter().flatten();
+        margins.fold(f64::INFINITY, |least, share| least.min(share.margin.value))
+    }
 }
 
 /// The margin of a contact that shares forces with others.
@@ -48,7 +58,8 @@ impl UnilateralState {
         }
     }
 
-    /// The distribution of undetermined forces at which the least margin of the contacts is greatest, (E78); nothing if none is undetermined.
+    /// The distribution of undetermined forces at which the least margin of the contacts is greatest, (E78); nothing if none is undetermined. A guide that sticks
+    /// may press to either side: each combination of the sides of those whose reactions are undetermined is tried, of the first few.
     pub(super) fn shared_load(
         &self,
         here: &ContactKinematics,
@@ -58,9 +69,48 @@ impl UnilateralState {
         let Some(equations) = &reaction.open_equations else {
             return Ok(None);
         };
+        let may_turn = |&(place, k): &(usize, &usize)| {
+            self.modes[*k] == Mode::Sticks
+                && equations.of_reactions.iter().any(|by| by[place] != 0.0)
+        };
+        let turning = equations.closed.iter().enumerate().filter(may_turn);
+        let turning: Vec<usize> = turning.take(MOST_SIDES).map(|(_, k)| *k).collect();
+        let mut sides = self.sides.clone();
+        for k in (0..sides.len()).filter(|k| self.is_guide(*k) && self.modes[*k] == Mode::Sticks) {
+            sides[k] = reaction.forces[k][0].signum();
+        }
+        let first = self.shared_load_with(here, reaction, (equations, &sides), t);
+        let mut best = first;
+        for pattern in 1..1_usize << turning.len() {
+            let mut sides = sides.clone();
+            for (place, k) in turning.iter().enumerate() {
+                if pattern >> place & 1 != 0 {
+                    sides[*k] = -sides[*k];
+                }
+            }
+            let other = self.shared_load_with(here, reaction, (equations, &sides), t);
+            let margin = |load: &Result<SharedLoad, StepError>| {
+                load.as_ref()
+                    .map_or(f64::NEG_INFINITY, SharedLoad::least_margin)
+            };
+            if margin(&other) > margin(&best) {
+                best = other;
+            }
+        }
+        best.map(Some)
+    }
+
+    /// The distribution with guides that press to these sides.
+    fn shared_load_with(
+        &self,
+        here: &ContactKinematics,
+        reaction: &Reaction,
+        (equations, sides): (&OpenEquations, &[f64]),
+        t: f64,
+    ) -> Result<SharedLoad, StepError> {
         let closed = &equations.closed;
         let free = equations.of_unit.len();
-        let (sharers, by) = self.sharers(here, reaction, equations);
+        let (sharers, by) = self.sharers(here, reaction, (equations, sides));
         let mut groups = vec![0; free];
         shares::group(&by, &mut groups);
         let mut load = SharedLoad {
@@ -107,7 +157,7 @@ impl UnilateralState {
                     let terms = own.iter().zip(&undetermined);
                     terms.map(|(x, y)| x * y).sum::<f64>()
                 };
-                let normal = added(0);
+                let normal = sides[k] * added(0);
                 if self.carrier[k].is_none() {
                     load.forces[k][0] += normal;
                 }
@@ -129,7 +179,7 @@ impl UnilateralState {
                 });
             }
         }
-        Ok(Some(load))
+        Ok(load)
     }
 
     /// The closed contacts as those that may share forces, and what each undetermined force adds to theirs. The second tangent of a contact
@@ -138,12 +188,14 @@ impl UnilateralState {
         &self,
         here: &ContactKinematics,
         reaction: &Reaction,
-        OpenEquations {
+        (equations, sides): (&OpenEquations, &[f64]),
+    ) -> (Vec<Sharer>, Vec<f64>) {
+        let OpenEquations {
             closed,
             unknowns,
             of_unit,
-        }: &OpenEquations,
-    ) -> (Vec<Sharer>, Vec<f64>) {
+            of_reactions,
+        } = equations;
         let free = of_unit.len();
         let mut by = vec![0.0; PARTS * free * closed.len()];
         let mut sharers = vec![Sharer::default(); closed.len()];
@@ -165,11 +217,16 @@ impl UnilateralState {
                     }
                 }
             }
+            if self.is_guide(k) {
+                for (x, of_reactions) in own.iter_mut().zip(of_reactions) {
+                    *x = sides[k] * of_reactions[place];
+                }
+            }
             let sticks = self.modes[k] == Mode::Sticks && self.has_friction[k];
             sharers[place] = Sharer {
                 static_friction: sticks.then(|| here.friction(k)[1]),
                 presses: self.carrier[k].is_none() && !self.is_compliant(k),
-                normal: reaction.forces[closed[pressing]][0],
+                normal: sides[k] * reaction.forces[closed[pressing]][0],
                 tangential: [
                     reaction.forces[k][1],
                     second.map_or(0.0, |second| reaction.forces[second][1]),

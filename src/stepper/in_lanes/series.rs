@@ -1,7 +1,7 @@
 //! The ends of steps by Taylor series of several steppers, in vector lanes.
 //!
-//! Each stepper goes to the end of its step and examines it alone. The motions through these ends are expanded together, which is most of the work, and so are powers
-//! evaluated along the steps: the numbers of a lane have the bits that they have alone.
+//! Each stepper moves to the end of its step and examines it alone. The motions through these ends are expanded together, which is most of the work, and powers along
+//! the steps are also evaluated together. The numbers of a lane have the bits of a single run.
 
 use std::vec;
 use std::vec::Vec;

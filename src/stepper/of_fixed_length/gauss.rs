@@ -259,6 +259,42 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Self {
             method,
             model,
+            before,
+            k,
+            control,
+            fixed,
+            ..
+        } = self;
+        let Some(Fixed::Gauss(gauss)) = fixed.as_deref_mut() else {
+            return Ok(());
+        };
+        let tableau = &method.tableau;
+        let t = before.t;
+        let singular = |singular| StepError::Singular { singular, t };
+        let not_solved = StepError::NotSolved { t, step: h };
+        let begun = gauss.begin(model.system.get(), (before, &k[0]), (tableau, h));
+        let Some(rounding) = begun.map_err(singular)? else {
+            return Err(not_solved);
+        };
+        let mut rounds = ConvergenceTest::START;
+        loop {
+            control.work.evaluations += tableau.stages - 1;
+            let iterated = gauss.iterate(model, before, (tableau, h));
+            let [change, size] = iterated.map_err(singular)?;
+            match rounds.is_last(change, (size, rounding)) {
+                Some(true) => break,
+                Some(false) => {}
+                None => return Err(not_solved),
+            }
+        }
+        self.arrive_by_gauss(h, last)
+    }
+
+    /// Goes to the end of a step whose stages are solved, and integrates the powers along it.
+    fn arrive_by_gauss(&mut self, h: f64, last: bool) -> Result<(), StepError> {
+        let Self {
+            method,
+            model,
             quadratures,
             before,
             now,
@@ -275,23 +311,6 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let (stages, n) = (tableau.stages, before.q.as_slice().len());
         let t = before.t;
         let singular = |singular| StepError::Singular { singular, t };
-        let not_solved = StepError::NotSolved { t, step: h };
-        let begun = gauss.begin(model.system.get(), (before, &k[0]), (tableau, h));
-        let Some(rounding) = begun.map_err(singular)? else {
-            return Err(not_solved);
-        };
-        let mut rounds = ConvergenceTest::START;
-        loop {
-            control.work.evaluations += stages - 1;
-            let iterated = gauss.iterate(model, before, (tableau, h));
-            let [change, size] = iterated.map_err(singular)?;
-            match rounds.is_last(change, (size, rounding)) {
-                Some(true) => break,
-                Some(false) => {}
-                None => return Err(not_solved),
-            }
-        }
-
         let Gauss {
             canonical,
             places,
@@ -326,7 +345,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             let system = model.system.get();
             system.constraint_matrix(now.t, &now.q, &mut reactions.rows[stages - 1]);
             if !reactions.factor(stages - 1, canonical, 1.0) {
-                return Err(not_solved);
+                return Err(StepError::NotSolved { t, step: h });
             }
             let residuals = &mut reactions.residuals[stages - 1];
             system.constraint_rates(now.t, &now.q, &now.v, residuals);

@@ -152,32 +152,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         before.clone_from(now);
         // An old Jacobian is used as long as Newton's method converges with it.
         let is_fresh = alpha.factored_step != h;
-        let mut solved = !is_fresh && self.newton_of_alpha(h)?;
-        if !solved {
-            let Self {
-                model,
-                before,
-                k,
-                stage: (q, v),
-                control,
-                fixed,
-                ..
-            } = self;
-            if let Some(Fixed::GeneralizedAlpha(alpha)) = fixed.as_deref_mut() {
-                let [start, .., here, there] = k;
-                before.state_ahead(ahead, start, [&mut *q, &mut *v]);
-                let mut accelerations =
-                    |t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector| {
-                        model.accelerations(t, q, v, a, &mut control.work)
-                    };
-                let scratch = [&mut *q, &mut *v, here, there];
-                alpha
-                    .jacobian
-                    .find((before.t + ahead, h), scratch, &mut accelerations)?;
-                solved = alpha.factor(h);
-            }
-            solved = solved && self.newton_of_alpha(h)?;
-        }
+        let solved = (!is_fresh && self.newton_of_alpha(h)?)
+            || (self.renew_jacobian_of_alpha(h, ahead)? && self.newton_of_alpha(h)?);
         if !solved {
             let (t, step) = (self.before.t, h);
             return Err(if self.jumps_at_end(h) {
@@ -218,6 +194,31 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         // stiffness of the machine.
         model.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &k[stages]));
         self.take_rates_in_middle(h)
+    }
+
+    /// Finds the Jacobian this far ahead of the beginning of a step, and factorizes the matrix of Newton's method. Returns whether it is invertible.
+    fn renew_jacobian_of_alpha(&mut self, h: f64, ahead: f64) -> Result<bool, StepError> {
+        let Self {
+            model,
+            before,
+            k,
+            stage: (q, v),
+            control,
+            fixed,
+            ..
+        } = self;
+        let Some(Fixed::GeneralizedAlpha(alpha)) = fixed.as_deref_mut() else {
+            return Ok(false);
+        };
+        let [start, .., here, there] = k;
+        before.state_ahead(ahead, start, [&mut *q, &mut *v]);
+        let mut accelerations = |t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector| {
+            model.accelerations(t, q, v, a, &mut control.work)
+        };
+        let scratch = [&mut *q, &mut *v, here, there];
+        let at = (before.t + ahead, h);
+        alpha.jacobian.find(at, scratch, &mut accelerations)?;
+        Ok(alpha.factor(h))
     }
 
     /// Solves for the acceleration at the end of a step, in `k` after the stages. Returns whether it was found.

@@ -12,70 +12,108 @@ use crate::import::number::Number;
 use crate::import::robot::{Anchor, Drive, Joint, JointKind, Law, TieKind};
 use crate::import::steps::AXES;
 
+/// The units of what acts along a joint.
+struct Units {
+    force: &'static str,
+    travel: &'static str,
+    rate: &'static str,
+    stiffness: &'static str,
+    damping: &'static str,
+    mass: &'static str,
+}
+
+/// Along a joint that turns.
+const TURNING: Units = Units {
+    force: "N*m",
+    travel: "rad",
+    rate: "rad/s",
+    stiffness: "N*m",
+    damping: "N*m*s",
+    mass: "kg*m^2",
+};
+
+/// Along a joint that slides.
+const SLIDING: Units = Units {
+    force: "N",
+    travel: "m",
+    rate: "m/s",
+    stiffness: "N/m",
+    damping: "N*s/m",
+    mass: "kg",
+};
+
+/// A joint with one coordinate, and the parameters of what acts along it.
+struct Along<'r> {
+    joint: &'r Joint,
+    /// The formula of its angle or its travel.
+    value: String,
+    units: &'static Units,
+    entries: Vec<String>,
+}
+
+/// A joint that is driven, and the parameters of its drive.
+struct Driven {
+    /// The formula of its angle or its travel.
+    value: String,
+    units: &'static Units,
+    /// The name of the input.
+    input: String,
+    /// The gear ratio as a factor, `ratio*`, or nothing.
+    gear: String,
+    entries: Vec<String>,
+}
+
+/// The name of the input of a drive: its own, or that of its joint with what the input is.
+fn input_name(joint: &Joint, drive: &Drive) -> String {
+    if !drive.name.is_empty() && drive.name != joint.name {
+        return drive.name.clone();
+    }
+    let suffix = match (&drive.law, joint.kind) {
+        (Law::Force, JointKind::Prismatic) => "force",
+        (Law::Force, _) => "torque",
+        (Law::Affine { .. }, _) => "control",
+        (Law::Position { .. }, _) => "target",
+        (Law::Rate { .. }, _) => "target_rate",
+    };
+    format!("{}_{suffix}", joint.name)
+}
+
+/// The rates below which smooth friction falls, of joints that turn and of those that slide, once they are parameters.
+#[derive(Default)]
+struct Smoothing {
+    turning: Option<String>,
+    sliding: Option<String>,
+}
+
+impl Units {
+    fn of(joint: &Joint) -> &'static Units {
+        match joint.kind {
+            JointKind::Prismatic => &SLIDING,
+            _ => &TURNING,
+        }
+    }
+}
+
 impl Writer<'_> {
     /// Adds dampers, friction and stops.
     pub(super) fn along_joints(&mut self, faults: &mut Faults) {
         let mut left_out = Vec::new();
         let mut limited = 0;
-        let [mut smoothing, mut restitution] = [None, None].map(|none: Option<String>| none);
-        let mut smoothing_of_slides = None;
+        let mut restitution = None;
+        let mut smoothing = Smoothing::default();
         for (index, joint) in self.joints().filter(|(_, joint)| joint.kind.is_single()) {
-            let value = self.value_of[index].clone();
-            let is_turning = joint.kind != JointKind::Prismatic;
-            let mut entries = Vec::new();
-            if !joint.stiffness.is_zero() {
-                let unit = if is_turning { "N*m" } else { "N/m" };
-                let text = joint.stiffness.to_string();
-                let stiffness =
-                    self.parameter(&mut entries, &format!("{value}_stiffness"), unit, &text);
-                let stretch = if joint.free_at.is_zero() {
-                    value.clone()
-                } else {
-                    let (name, text) =
-                        (format!("{value}_free_at"), measured(joint, &joint.free_at));
-                    let free = self.parameter(&mut entries, &name, unit_of(joint), &text);
-                    format!("{value} - {free}")
-                };
-                let spring = format!("{value} {{ stiffness: {stiffness}, stretch: {stretch} }}");
-                self.text.add("springs", None, vec![spring]);
-            }
-            if !joint.armature.is_zero() {
-                let unit = if is_turning { "kg*m^2" } else { "kg" };
-                let text = joint.armature.to_string();
-                let inertia =
-                    self.parameter(&mut entries, &format!("{value}_armature"), unit, &text);
-                let rotor = format!("{value} {{ inertia: {inertia}, angle: {value} }}");
-                self.text.add("rotors", None, vec![rotor]);
-            }
-            if !joint.damping.is_zero() {
-                let unit = if is_turning { "N*m*s" } else { "N*s/m" };
-                let text = joint.damping.to_string();
-                let damping =
-                    self.parameter(&mut entries, &format!("{value}_damping"), unit, &text);
-                let damper = format!("{value} {{ damping: {damping}, stretch: {value} }}");
-                self.text.add("dampers", None, vec![damper]);
-            }
+            let mut along = Along {
+                joint,
+                value: self.value_of[index].clone(),
+                units: Units::of(joint),
+                entries: Vec::new(),
+            };
+            self.spring(&mut along);
+            self.rotor(&mut along);
+            self.damper(&mut along);
             match self.call.friction {
-                Some(Friction::Smooth(rate)) if !joint.friction.is_zero() => {
-                    let unit = if is_turning { "N*m" } else { "N" };
-                    let text = joint.friction.to_string();
-                    let friction =
-                        self.parameter(&mut entries, &format!("{value}_friction"), unit, &text);
-                    let (smoothing, name, unit) = if is_turning {
-                        (&mut smoothing, "smoothing", "rad/s")
-                    } else {
-                        (&mut smoothing_of_slides, "smoothing_of_slides", "m/s")
-                    };
-                    if smoothing.is_none() {
-                        let mut entry = Vec::new();
-                        let rate = Number::computed(rate).to_string();
-                        *smoothing = Some(self.parameter(&mut entry, name, unit, &rate));
-                        let comment = "Below this rate friction falls to zero instead of sticking.";
-                        self.text.add("parameters", Some(comment.to_owned()), entry);
-                    }
-                    let rate = smoothing.clone().unwrap_or_default();
-                    let formula = format!("{value}: {friction}*sqrt(der({value})^2 + {rate}^2)");
-                    self.text.add("dissipations", None, vec![formula]);
+                Some(Friction::Smooth(rate)) => {
+                    self.smooth_friction(&mut along, rate, &mut smoothing);
                 }
                 Some(Friction::None) if !joint.friction.is_zero() => {
                     left_out.push(quoted(&joint.name));
@@ -85,18 +123,12 @@ impl Writer<'_> {
             if let Some([lower, upper]) = &joint.range {
                 limited += 1;
                 if self.call.limits != Limits::None {
-                    self.range(
-                        joint,
-                        &value,
-                        [lower, upper],
-                        &mut entries,
-                        &mut restitution,
-                        faults,
-                    );
+                    let range = [lower, upper];
+                    self.range(&mut along, range, &mut restitution, faults);
                 }
             }
             let comment = format!("Joint {}: the forces along it.", quoted(&joint.name));
-            self.text.add("parameters", Some(comment), entries);
+            self.text.add("parameters", Some(comment), along.entries);
         }
         if !left_out.is_empty() {
             let count = counted(left_out.len(), "joint", "joints");
@@ -114,16 +146,92 @@ impl Writer<'_> {
         }
     }
 
-    /// Handles the limits of a joint.
-    pub(super) fn range(
+    /// A parameter of what acts along a joint, with the name of the joint and a suffix.
+    fn parameter_along(
         &mut self,
-        joint: &Joint,
-        value: &str,
+        along: &mut Along<'_>,
+        suffix: &str,
+        unit: &str,
+        text: &str,
+    ) -> String {
+        let name = format!("{}_{suffix}", along.value);
+        self.parameter(&mut along.entries, &name, unit, text)
+    }
+
+    fn spring(&mut self, along: &mut Along<'_>) {
+        let joint = along.joint;
+        if joint.stiffness.is_zero() {
+            return;
+        }
+        let text = joint.stiffness.to_string();
+        let stiffness = self.parameter_along(along, "stiffness", along.units.stiffness, &text);
+        let value = along.value.clone();
+        let stretch = if joint.free_at.is_zero() {
+            value.clone()
+        } else {
+            let text = measured(joint, &joint.free_at);
+            let free = self.parameter_along(along, "free_at", unit_of(joint), &text);
+            format!("{value} - {free}")
+        };
+        let spring = format!("{value} {{ stiffness: {stiffness}, stretch: {stretch} }}");
+        self.text.add("springs", None, vec![spring]);
+    }
+
+    fn rotor(&mut self, along: &mut Along<'_>) {
+        if along.joint.armature.is_zero() {
+            return;
+        }
+        let text = along.joint.armature.to_string();
+        let inertia = self.parameter_along(along, "armature", along.units.mass, &text);
+        let value = &along.value;
+        let rotor = format!("{value} {{ inertia: {inertia}, angle: {value} }}");
+        self.text.add("rotors", None, vec![rotor]);
+    }
+
+    fn damper(&mut self, along: &mut Along<'_>) {
+        if along.joint.damping.is_zero() {
+            return;
+        }
+        let text = along.joint.damping.to_string();
+        let damping = self.parameter_along(along, "damping", along.units.damping, &text);
+        let value = &along.value;
+        let damper = format!("{value} {{ damping: {damping}, stretch: {value} }}");
+        self.text.add("dampers", None, vec![damper]);
+    }
+
+    /// Adds friction that falls to zero below a rate.
+    fn smooth_friction(&mut self, along: &mut Along<'_>, rate: f64, smoothing: &mut Smoothing) {
+        if along.joint.friction.is_zero() {
+            return;
+        }
+        let text = along.joint.friction.to_string();
+        let friction = self.parameter_along(along, "friction", along.units.force, &text);
+        let (known, name) = match along.joint.kind {
+            JointKind::Prismatic => (&mut smoothing.sliding, "smoothing_of_slides"),
+            _ => (&mut smoothing.turning, "smoothing"),
+        };
+        let rate = known.get_or_insert_with(|| {
+            let mut entry = Vec::new();
+            let rate = Number::computed(rate).to_string();
+            let parameter = self.parameter(&mut entry, name, along.units.rate, &rate);
+            let comment = "Below this rate friction falls to zero instead of sticking.";
+            self.text.add("parameters", Some(comment.to_owned()), entry);
+            parameter
+        });
+        let value = &along.value;
+        let formula = format!("{value}: {friction}*sqrt(der({value})^2 + {rate}^2)");
+        self.text.add("dissipations", None, vec![formula]);
+    }
+
+    /// Handles the limits of a joint.
+    fn range(
+        &mut self,
+        along: &mut Along<'_>,
         range: [&Number; 2],
-        entries: &mut Vec<String>,
         restitution: &mut Option<String>,
         faults: &mut Faults,
     ) {
+        let joint = along.joint;
         if range[0].value >= range[1].value && joint.mimic.is_some() {
             let name = quoted(&joint.name);
             faults.add(
@@ -134,8 +242,9 @@ impl Writer<'_> {
         let unit = unit_of(joint);
         let [lower, upper] = [("lower", range[0]), ("upper", range[1])].map(|(end, bound)| {
             let text = measured(joint, bound);
-            self.parameter(entries, &format!("{value}_{end}"), unit, &text)
+            self.parameter_along(along, end, unit, &text)
         });
+        let value = &along.value;
         if self.call.limits == Limits::Assume {
             let facts = vec![format!("{value} >= {lower}"), format!("{value} <= {upper}")];
             return self.text.add("assume", None, facts);
@@ -178,77 +287,20 @@ impl Writer<'_> {
                 .warnings
                 .push(format!("drive {name} is left out with its joint"));
         }
-        let value = self.value_of[drive.joint].clone();
-        let is_turning = joint.kind != JointKind::Prismatic;
-        let [force, travel, rate, stiffness, damping, mass] = if is_turning {
-            ["N*m", "rad", "rad/s", "N*m", "N*m*s", "kg*m^2"]
-        } else {
-            ["N", "m", "m/s", "N/m", "N*s/m", "kg"]
-        };
-        let suffix = match (&drive.law, is_turning) {
-            (Law::Force, true) => "torque",
-            (Law::Force, false) => "force",
-            (Law::Affine { .. }, _) => "control",
-            (Law::Position { .. }, _) => "target",
-            (Law::Rate { .. }, _) => "target_rate",
-        };
-        let name = if drive.name.is_empty() || drive.name == joint.name {
-            format!("{}_{suffix}", joint.name)
-        } else {
-            drive.name.clone()
-        };
+        let name = input_name(joint, drive);
         let input = self.values.take(&name, "input");
-        let mut entries = Vec::new();
-        let mut added = |writer: &mut Self, suffix: &str, unit: &str, number: &Number| {
-            let name = format!("{input}_{suffix}");
-            writer.parameter(&mut entries, &name, unit, &number.to_string())
+        let mut driven = Driven {
+            value: self.value_of[drive.joint].clone(),
+            units: Units::of(joint),
+            input: input.clone(),
+            gear: String::new(),
+            entries: Vec::new(),
         };
-        let gear = if drive.gear.value == 1.0 {
-            String::new()
-        } else {
-            format!("{}*", added(self, "gear", "1", &drive.gear))
-        };
-        let (unit, law) = match &drive.law {
-            Law::Force => (force, input.clone()),
-            Law::Position {
-                stiffness: k,
-                damping: b,
-            } => {
-                let k = added(self, "stiffness", stiffness, k);
-                let mut law = format!("{k}*({input} - {gear}{value})");
-                if !b.is_zero() {
-                    let b = added(self, "damping", damping, b);
-                    law.push_str(&format!(" - {b}*{gear}der({value})"));
-                }
-                if !gear.is_empty() && !b.is_zero() {
-                    law = format!("({law})");
-                }
-                (travel, law)
-            }
-            Law::Rate { damping: b } => {
-                let b = added(self, "damping", damping, b);
-                (rate, format!("{b}*({input} - {gear}der({value}))"))
-            }
-            Law::Affine {
-                gain,
-                constant,
-                of_length,
-                of_rate,
-            } => {
-                let mut law = format!("{}*{input}", added(self, "gain", force, gain));
-                let terms = [
-                    (constant, "constant", force, String::new()),
-                    (of_length, "of_length", stiffness, format!("*{gear}{value}")),
-                    (of_rate, "of_rate", damping, format!("*{gear}der({value})")),
-                ];
-                for (number, suffix, unit, times) in terms {
-                    if !number.is_zero() {
-                        law.push_str(&format!(" + {}{times}", added(self, suffix, unit, number)));
-                    }
-                }
-                ("1", format!("({law})"))
-            }
-        };
+        if drive.gear.value != 1.0 {
+            let gear = self.parameter_of(&mut driven, "gear", "1", &drive.gear);
+            driven.gear = format!("{gear}*");
+        }
+        let (unit, law) = self.law(&mut driven, &drive.law);
         let (coordinate, factor) = self.coordinate_of[drive.joint].clone();
         let on = self.value_of[coordinate].clone();
         let law = if factor.is_empty() || law.starts_with('(') {
@@ -256,10 +308,15 @@ impl Writer<'_> {
         } else {
             format!("({law})")
         };
-        let force = format!("{input} {{ on: {on}, value: {factor}{gear}{law} }}");
+        let force = format!(
+            "{input} {{ on: {on}, value: {factor}{}{law} }}",
+            driven.gear
+        );
         if !drive.inertia.is_zero() {
-            let inertia = added(self, "inertia", mass, &drive.inertia);
-            let rotor = format!("{input} {{ inertia: {inertia}, angle: {gear}{value} }}");
+            let mass = driven.units.mass;
+            let inertia = self.parameter_of(&mut driven, "inertia", mass, &drive.inertia);
+            let angle = format!("{}{}", driven.gear, driven.value);
+            let rotor = format!("{input} {{ inertia: {inertia}, angle: {angle} }}");
             self.text.add("rotors", None, vec![rotor]);
         }
         self.text.add("forces", None, vec![force]);
@@ -269,6 +326,7 @@ impl Writer<'_> {
             format!(" {}", quoted(&drive.name))
         };
         let comment = format!("Drive{shown} of joint {}.", quoted(&joint.name));
+        let entries = driven.entries;
         self.text.add("parameters", Some(comment.clone()), entries);
         let usual = if drive.usual.is_zero() {
             String::new()
@@ -277,6 +335,69 @@ impl Writer<'_> {
         };
         let entry = format!("{input}: {unit}{usual}");
         self.text.add("inputs", Some(comment), vec![entry]);
+    }
+
+    /// A parameter of a drive, with the name of its input and a suffix.
+    fn parameter_of(
+        &mut self,
+        driven: &mut Driven,
+        suffix: &str,
+        unit: &str,
+        number: &Number,
+    ) -> String {
+        let name = format!("{}_{suffix}", driven.input);
+        self.parameter(&mut driven.entries, &name, unit, &number.to_string())
+    }
+
+    /// The unit of the input of a drive, and the formula of its force before the gear.
+    fn law(&mut self, driven: &mut Driven, law: &Law) -> (&'static str, String) {
+        let units = driven.units;
+        let (input, value, gear) = (
+            driven.input.clone(),
+            driven.value.clone(),
+            driven.gear.clone(),
+        );
+        match law {
+            Law::Force => (units.force, input),
+            Law::Position { stiffness, damping } => {
+                let k = self.parameter_of(driven, "stiffness", units.stiffness, stiffness);
+                let mut law = format!("{k}*({input} - {gear}{value})");
+                if !damping.is_zero() {
+                    let b = self.parameter_of(driven, "damping", units.damping, damping);
+                    law.push_str(&format!(" - {b}*{gear}der({value})"));
+                }
+                if !gear.is_empty() && !damping.is_zero() {
+                    law = format!("({law})");
+                }
+                (units.travel, law)
+            }
+            Law::Rate { damping } => {
+                let b = self.parameter_of(driven, "damping", units.damping, damping);
+                (units.rate, format!("{b}*({input} - {gear}der({value}))"))
+            }
+            Law::Affine {
+                gain,
+                constant,
+                of_length,
+                of_rate,
+            } => {
+                let gain = self.parameter_of(driven, "gain", units.force, gain);
+                let mut law = format!("{gain}*{input}");
+                let (length, rate) = (format!("*{gear}{value}"), format!("*{gear}der({value})"));
+                let terms = [
+                    (constant, "constant", units.force, String::new()),
+                    (of_length, "of_length", units.stiffness, length),
+                    (of_rate, "of_rate", units.damping, rate),
+                ];
+                for (number, suffix, unit, times) in terms {
+                    if !number.is_zero() {
+                        let factor = self.parameter_of(driven, suffix, unit, number);
+                        law.push_str(&format!(" + {factor}{times}"));
+                    }
+                }
+                ("1", format!("({law})"))
+            }
+        }
     }
 
     /// Adds equations between coordinates.

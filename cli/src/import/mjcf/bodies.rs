@@ -124,12 +124,7 @@ impl<'e> Reader<'_, '_, 'e> {
             let mut joint = self.joint(item, kind, link);
             if kind == JointKind::Floating {
                 if !parent.is_world || joints.len() > 1 {
-                    let message = format!(
-                        "{} lets body {} move freely: it must be the only joint of a body of the world",
-                        item.owner,
-                        quoted(&link.name)
-                    );
-                    self.faults.add(item.element.at, message);
+                    self.refuse_free(item, link);
                 }
                 joint.start = Some(Start {
                     xyz: std::mem::take(&mut shift),
@@ -137,24 +132,13 @@ impl<'e> Reader<'_, '_, 'e> {
                 });
                 turns.clear();
             } else if kind != JointKind::Prismatic {
-                let place = self.numbers::<3>(item, "pos").unwrap_or_default();
-                let is_there = last == Vector3::zeros();
-                let position = Vector3::from(place.each_ref().map(|number| number.value));
-                let step = if is_there {
-                    place
-                } else {
-                    (position - last).map(Number::computed).into()
-                };
+                let (step, position) = self.step_to(item, last);
                 // This step follows the rotation of the body's frame.
-                let step = Pose {
+                let before = Pose {
                     xyz: shift,
                     turns: turns.clone(),
-                }
-                .then(&Pose {
-                    xyz: step,
-                    turns: Turns::new(),
-                });
-                shift = step.xyz;
+                };
+                shift = before.then(&step).xyz;
                 last = position;
             }
             joint.parent = above;
@@ -179,20 +163,15 @@ impl<'e> Reader<'_, '_, 'e> {
             held.push(joint);
         }
         if above != link.name {
+            let xyz = if joints.is_empty() {
+                shift
+            } else {
+                (-last).map(Number::computed).into()
+            };
             held.push(Joint {
-                name: format!("{}\nframe", link.name),
-                label: "fixed",
-                parent: above,
-                child: link.name.clone(),
                 shown,
-                xyz: if joints.is_empty() {
-                    shift
-                } else {
-                    (-last).map(Number::computed).into()
-                },
-                turns,
                 at,
-                ..Joint::default()
+                ..to_frame(above, link, Pose { xyz, turns })
             });
         }
         for joint in held {
@@ -200,6 +179,30 @@ impl<'e> Reader<'_, '_, 'e> {
             self.joints.insert(joint.name.clone(), index);
             self.robot.joints.push(joint);
         }
+    }
+
+    /// Refuses a free joint that is not the only one of a body of the world.
+    fn refuse_free(&mut self, item: &Item<'e>, link: &Parent) {
+        let message = format!(
+            "{} lets body {} move freely: it must be the only joint of a body of the world",
+            item.owner,
+            quoted(&link.name)
+        );
+        self.faults.add(item.element.at, message);
+    }
+
+    /// The step from the previous joint of a body, at `last`, to another one, and its position.
+    fn step_to(&mut self, item: &Item<'e>, last: Vector3<f64>) -> (Pose, Vector3<f64>) {
+        let place = self.numbers::<3>(item, "pos").unwrap_or_default();
+        let position = Vector3::from(place.each_ref().map(|number| number.value));
+        // Where it begins at the origin, the number keeps its digits.
+        let xyz = if last == Vector3::zeros() {
+            place
+        } else {
+            (position - last).map(Number::computed).into()
+        };
+        let turns = Turns::new();
+        (Pose { xyz, turns }, position)
     }
 
     fn kind(&mut self, item: &Item<'e>) -> JointKind {
@@ -259,32 +262,43 @@ impl<'e> Reader<'_, '_, 'e> {
             );
             self.refuse(at, "springdamper", &message);
         }
-        if !kind.is_single() {
-            let terms = [
-                ("damping", &mut joint.damping),
-                ("frictionloss", &mut joint.friction),
-                ("stiffness", &mut joint.stiffness),
-                ("armature", &mut joint.armature),
-            ];
-            for (name, number) in terms {
-                if std::mem::take(number).is_zero() {
-                    continue;
-                }
-                let at = self
-                    .attribute_of(item, name)
-                    .map_or(element.at, |attribute| attribute.at);
-                let message = format!(
-                    "`{name}` of {} belongs to a {label} joint, which is not supported",
-                    item.owner
-                );
-                self.refuse(at, name, &message);
-            }
+        if kind.is_single() {
+            self.along_its_axis(item, &mut joint);
+        } else {
+            self.refuse_along(item, &mut joint);
             if self.is_limited(item, "limited", "range") {
                 self.count("`range` of ball joint");
             }
-            return joint;
         }
-        let is_angle = kind != JointKind::Prismatic;
+        joint
+    }
+
+    /// Refuses what acts along a joint that has several coordinates.
+    fn refuse_along(&mut self, item: &Item<'e>, joint: &mut Joint) {
+        let terms = [
+            ("damping", &mut joint.damping),
+            ("frictionloss", &mut joint.friction),
+            ("stiffness", &mut joint.stiffness),
+            ("armature", &mut joint.armature),
+        ];
+        for (name, number) in terms {
+            if std::mem::take(number).is_zero() {
+                continue;
+            }
+            let at = self
+                .attribute_of(item, name)
+                .map_or(item.element.at, |attribute| attribute.at);
+            let message = format!(
+                "`{name}` of {} belongs to a {} joint, which is not supported",
+                item.owner, joint.label
+            );
+            self.refuse(at, name, &message);
+        }
+    }
+
+    /// The axis of a joint with one coordinate, and what is given along it.
+    fn along_its_axis(&mut self, item: &Item<'e>, joint: &mut Joint) {
+        let is_angle = joint.kind != JointKind::Prismatic;
         let value = |reader: &mut Self, name: &str| {
             let number = reader.number(item, name).unwrap_or_default();
             if is_angle {
@@ -304,7 +318,7 @@ impl<'e> Reader<'_, '_, 'e> {
                     "the axis of {} has no direction: it consists of three zeros",
                     item.owner
                 );
-                self.faults.add(element.at, message);
+                self.faults.add(item.element.at, message);
             }
         }
         if self.is_limited(item, "limited", "range")
@@ -319,7 +333,6 @@ impl<'e> Reader<'_, '_, 'e> {
         if self.is_limited(item, "actuatorfrclimited", "actuatorfrcrange") {
             self.count("`actuatorfrcrange` of joint");
         }
-        joint
     }
 
     /// Whether a range is enforced.
@@ -662,6 +675,19 @@ impl<'e> Reader<'_, '_, 'e> {
                 "; scaled to the total mass of the file"
             };
         }
+    }
+}
+
+/// The fixed joint from the last joint of a body to the body's frame.
+fn to_frame(above: String, link: &Parent, pose: Pose) -> Joint {
+    Joint {
+        name: format!("{}\nframe", link.name),
+        label: "fixed",
+        parent: above,
+        child: link.name.clone(),
+        xyz: pose.xyz,
+        turns: pose.turns,
+        ..Joint::default()
     }
 }
 

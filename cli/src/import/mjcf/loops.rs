@@ -119,64 +119,15 @@ impl<'e> Reader<'_, '_, 'e> {
         if self.flag(&item, "active") == Some(false) {
             return self.count(&format!("inactive `equality` of {kind}"));
         }
-        for name in ["site1", "site2"] {
-            if let Some(attribute) = self.attribute_of(&item, name) {
-                let message = format!(
-                    "`{name}` of {} is not supported: write `body1`, `body2` and `anchor`",
-                    item.owner
-                );
-                return self.refuse(attribute.at, kind, &message);
-            }
-        }
-        let needed = if is_weld {
-            &["body1"][..]
-        } else {
-            &["body1", "anchor"]
-        };
-        for name in needed {
-            if self.attribute_of(&item, name).is_none() {
-                let message = format!("{} lacks `{name}`", item.owner);
-                return self.faults.add(element.at, message);
-            }
+        if !self.names_its_bodies(&item, is_weld) {
+            return;
         }
         let (Some((first_link, first)), Some((second_link, second))) =
             (self.body_of(&item, "body1"), self.body_of(&item, "body2"))
         else {
             return;
         };
-        let anchor = self.numbers::<3>(&item, "anchor").unwrap_or_default();
-        let place = Vector3::from(anchor.each_ref().map(|number| number.value));
-        let between = Rest {
-            axes: first.axes.transpose() * second.axes,
-            origin: first.axes.transpose() * (second.origin - first.origin),
-        };
-        let size = place.amax() + first.origin.amax() + second.origin.amax();
-        let numbers = |place: Vector3<f64>| -> [Number; 3] {
-            let clean = |x: f64| {
-                if x.abs() <= ROUNDING * size {
-                    Number::zero()
-                } else {
-                    Number::computed(x)
-                }
-            };
-            place.map(clean).into()
-        };
-        let (anchors, axes) = if is_weld {
-            let mut axes = between.axes;
-            let mut there = between.origin + between.axes * place;
-            if let Some(pose) = self.numbers::<7>(&item, "relpose") {
-                let [x, y, z, turn @ ..] = pose.map(|number| number.value);
-                // The position of `relpose` is that of the anchor.
-                if turn.iter().any(|x| *x != 0.0) {
-                    axes = of_quaternion(turn);
-                    there = Vector3::new(x, y, z);
-                }
-            }
-            ([numbers(there), anchor], Some(axes))
-        } else {
-            let there = between.axes.transpose() * (place - between.origin);
-            ([anchor, numbers(there)], None)
-        };
+        let (anchors, axes) = self.anchors(&item, is_weld, [&first, &second]);
         let [first, second] = anchors;
         let bodies = [first_link.as_str(), second_link.as_str()];
         let Some(varies) = self.variations(bodies, [&first, &second], axes.as_ref()) else {
@@ -206,6 +157,77 @@ impl<'e> Reader<'_, '_, 'e> {
                 varies,
             },
         });
+    }
+
+    /// Checks that the closure of a loop is written by its bodies and an anchor, and not by sites.
+    fn names_its_bodies(&mut self, item: &Item<'e>, is_weld: bool) -> bool {
+        let element = item.element;
+        for name in ["site1", "site2"] {
+            if let Some(attribute) = self.attribute_of(item, name) {
+                let message = format!(
+                    "`{name}` of {} is not supported: write `body1`, `body2` and `anchor`",
+                    item.owner
+                );
+                self.refuse(attribute.at, &element.name, &message);
+                return false;
+            }
+        }
+        let needed = if is_weld {
+            &["body1"][..]
+        } else {
+            &["body1", "anchor"]
+        };
+        for name in needed {
+            if self.attribute_of(item, name).is_none() {
+                let message = format!("{} lacks `{name}`", item.owner);
+                self.faults.add(element.at, message);
+                return false;
+            }
+        }
+        true
+    }
+
+    /// The points of both bodies that coincide, each in the frame of its body, and the axes of the second body in the frame of the first,
+    /// if they are held too.
+    fn anchors(
+        &mut self,
+        item: &Item<'e>,
+        is_weld: bool,
+        [first, second]: [&Rest; 2],
+    ) -> ([[Number; 3]; 2], Option<Matrix3<f64>>) {
+        let anchor = self.numbers::<3>(item, "anchor").unwrap_or_default();
+        let place = Vector3::from(anchor.each_ref().map(|number| number.value));
+        let between = Rest {
+            axes: first.axes.transpose() * second.axes,
+            origin: first.axes.transpose() * (second.origin - first.origin),
+        };
+        let size = place.amax() + first.origin.amax() + second.origin.amax();
+        let numbers = |place: Vector3<f64>| -> [Number; 3] {
+            let clean = |x: f64| {
+                if x.abs() <= ROUNDING * size {
+                    Number::zero()
+                } else {
+                    Number::computed(x)
+                }
+            };
+            place.map(clean).into()
+        };
+        if is_weld {
+            let mut axes = between.axes;
+            let mut there = between.origin + between.axes * place;
+            if let Some(pose) = self.numbers::<7>(item, "relpose") {
+                let [x, y, z, turn @ ..] = pose.map(|number| number.value);
+                // The position of `relpose` is that of the anchor.
+                if turn.iter().any(|x| *x != 0.0) {
+                    axes = of_quaternion(turn);
+                    there = Vector3::new(x, y, z);
+                }
+            }
+            ([numbers(there), anchor], Some(axes))
+        } else {
+            let there = between.axes.transpose() * (place - between.origin);
+            ([anchor, numbers(there)], None)
+        }
     }
 
     /// Which of the conditions of a loop depend on the values of joints; `None` if one that does not is never satisfied.

@@ -364,7 +364,7 @@ impl Path {
 
     /// A Newton step.
     fn step(&self, system: &impl Pontryagin, from: &[f64], to: &[f64]) -> Option<Step> {
-        let (m, n) = (system.states(), from.len());
+        let m = system.states();
         let stretches: Option<Vec<Stretch>> = (0..self.stretches())
             .map(|k| self.stretch(system, k))
             .collect();
@@ -381,10 +381,53 @@ impl Path {
             let before = &chain[chain.len() - 1];
             chain.push(composed(&stretch.outer, before));
         }
-        let (start, end) = (&self.nodes[0], &self.nodes[self.stretches()]);
-        let last = &chain[chain.len() - 1];
+        let end = &self.nodes[self.stretches()];
         let (slopes, second) = system.curvatures(end, &self.last);
         let (value, _) = system.slopes(end, &self.last);
+        let slopes_at_end = (slopes.as_slice(), value);
+        let (matrix, right) = self.conditions_at_ends([from, to], &chain, slopes_at_end);
+        let unknown = Lu::new(matrix)?.solve(&right);
+        let known: Vec<f64> = [1.0].into_iter().chain(unknown.iter().copied()).collect();
+        let at = |rows: &Vec<Vec<f64>>| -> Vec<f64> {
+            rows.iter().map(|row| dot(row, &known)).collect()
+        };
+        let nodes: Vec<Vec<f64>> = chain.iter().map(at).collect();
+        let stages = stretches.iter().zip(&nodes).map(|(stretch, node)| {
+            let known = [1.0].into_iter().chain(node.iter().copied());
+            let known: Vec<f64> = known.chain([unknown[2 * m]]).collect();
+            let changes = stretch.inner.iter().map(|row| dot(row, &known));
+            changes.collect::<Vec<f64>>()
+        });
+        let stages = stages.collect();
+        let controls: Vec<Vec<f64>> = second[2 * m..]
+            .iter()
+            .map(|r| r[2 * m..].to_vec())
+            .collect();
+        let end_change = &nodes[self.stretches()];
+        let right: Vec<f64> = (2 * m..slopes.len())
+            .map(|i| -slopes[i] - dot(&second[i][..2 * m], end_change))
+            .collect();
+        Some(Step {
+            time: unknown[2 * m],
+            last: Lu::new(controls)?.solve(&right),
+            nodes,
+            stages,
+        })
+    }
+
+    /// The conditions at both ends, in the change of the first node and in the change of the time: rows and right sides. `chain` are the
+    /// changes of each node, and the slopes and the value are those of Hamilton's function at the last one.
+    fn conditions_at_ends(
+        &self,
+        [from, to]: [&[f64]; 2],
+        chain: &[Vec<Vec<f64>>],
+        (slopes, value): (&[f64], f64),
+    ) -> (Vec<Vec<f64>>, Vec<f64>) {
+        let n = from.len();
+        let m = chain[0].len() / 2;
+        let width = 2 * m + 2;
+        let (start, end) = (&self.nodes[0], &self.nodes[self.stretches()]);
+        let last = &chain[chain.len() - 1];
         let mut matrix = Vec::new();
         let mut right = Vec::new();
         let mut demand = |row: &[f64], change: f64| {
@@ -417,33 +460,7 @@ impl Path {
             .map(|column| (0..2 * m).map(|i| slopes[i] * last[i][column]).sum())
             .collect();
         demand(&by_end, 1.0 - value);
-        let unknown = Lu::new(matrix)?.solve(&right);
-        let known: Vec<f64> = [1.0].into_iter().chain(unknown.iter().copied()).collect();
-        let at = |rows: &Vec<Vec<f64>>| -> Vec<f64> {
-            rows.iter().map(|row| dot(row, &known)).collect()
-        };
-        let nodes: Vec<Vec<f64>> = chain.iter().map(at).collect();
-        let stages = stretches.iter().zip(&nodes).map(|(stretch, node)| {
-            let known = [1.0].into_iter().chain(node.iter().copied());
-            let known: Vec<f64> = known.chain([unknown[2 * m]]).collect();
-            let changes = stretch.inner.iter().map(|row| dot(row, &known));
-            changes.collect::<Vec<f64>>()
-        });
-        let stages = stages.collect();
-        let controls: Vec<Vec<f64>> = second[2 * m..]
-            .iter()
-            .map(|r| r[2 * m..].to_vec())
-            .collect();
-        let end_change = &nodes[self.stretches()];
-        let right: Vec<f64> = (2 * m..slopes.len())
-            .map(|i| -slopes[i] - dot(&second[i][..2 * m], end_change))
-            .collect();
-        Some(Step {
-            time: unknown[2 * m],
-            last: Lu::new(controls)?.solve(&right),
-            nodes,
-            stages,
-        })
+        (matrix, right)
     }
 
     /// The conditions on a stretch, solved for the changes at its points.

@@ -527,7 +527,12 @@ impl Emitter<'_> {
             Layout::Struct(format!("{runtime}::UnilateralContact"), fields.to_vec())
         });
         let rows = Layout::nested(rows);
+        let guides = contacts.iter().filter(|contact| contact.is_guide).count();
         self.row("contacts", "unilateral_contacts", &["p"], Some(rows));
+        if guides > 0 {
+            let guides = Layout::Atom(guides.to_string());
+            self.row("count", "guides", &["p"], Some(guides));
+        }
     }
 
     /// Writes a workspace for constraints and contacts: an array, if it is small enough for the stack.

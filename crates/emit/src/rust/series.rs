@@ -13,8 +13,8 @@
 //! is stored and read once, at the index given by the constants `A0` and `B0`. The caller provides the packs, so that they need
 //! not be cleared in every step.
 
-mod arithmetic;
 mod code;
+mod recorder;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -28,8 +28,8 @@ use super::Emitter;
 use super::kernel::FastFunction;
 use super::types::Types;
 use crate::layout::Layout;
-use arithmetic::Recorder;
 use code::{Code, Operand, Part};
+use recorder::Recorder;
 
 /// The number of lists in a pack.
 const WIDTH: usize = 24;
@@ -501,6 +501,29 @@ impl Recorder<'_> {
             self.coefficient(*row, Order::Later);
         }
     }
+
+    /// What is carried from one order to the next, at the start and later; `known` is what was needed of the start before.
+    fn carried_values(
+        &mut self,
+        [start, later]: [&FinalCoefficients; 2],
+        known: &BTreeMap<Carried, Operand>,
+    ) -> BTreeMap<Carried, [Operand; 2]> {
+        // A value of one order before requires the current value to be carried too.
+        for which in self.carried.clone() {
+            if let Carried::Older(row, weighted) = which {
+                self.carry(Stream { row, weighted });
+            }
+        }
+        let mut carried = BTreeMap::new();
+        for which in self.carried.clone() {
+            self.part = Part::Start;
+            let known = known.get(&which).copied();
+            let first = known.unwrap_or_else(|| self.carried_by(which, start, 2));
+            self.part = Part::Order;
+            carried.insert(which, [first, self.carried_by(which, later, 3)]);
+        }
+        carried
+    }
 }
 
 /// Generates the code of a series.
@@ -553,20 +576,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
         }
     }
     to.lead = 2;
-    // A value of one order before requires the current value to be carried too.
-    for which in to.carried.clone() {
-        if let Carried::Older(row, weighted) = which {
-            to.carry(Stream { row, weighted });
-        }
-    }
-    let mut variables = BTreeMap::new();
-    for which in to.carried.clone() {
-        let known = carried.get(&which).copied();
-        to.part = Part::Start;
-        let first = known.unwrap_or_else(|| to.carried_by(which, &start, 2));
-        to.part = Part::Order;
-        variables.insert(which, [first, to.carried_by(which, &later, 3)]);
-    }
+    let carried = to.carried_values([&start, &later], &carried);
     let motion = [start.motion, later.motion];
     let Recorder {
         mut code,
@@ -575,7 +585,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
     } = to;
     let all = motion.iter().flatten().copied();
     let all = all.chain(kept.iter().flatten().flatten().flatten().copied());
-    let all = all.chain(variables.values().flatten().copied());
+    let all = all.chain(carried.values().flatten().copied());
     let all: Vec<Operand> = all
         .chain(applied.iter().flatten().flatten().copied())
         .collect();
@@ -584,7 +594,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
         code,
         constants,
         packs: Pack::all(&lanes),
-        carried: variables,
+        carried,
         kept,
         motion,
         applied,

@@ -82,17 +82,8 @@ impl Emitter<'_> {
         let Some(last) = self.program.function(Role::AccelerationsAt) else {
             return;
         };
-        let runtime = self.options.runtime.clone();
-        let n = self.program.dimension();
         let f64 = self.types.known("f64");
-        let vector = format!("[{f64}; {n}]");
-        let result_type = |ok_type: &str| {
-            format!(
-                "{}<{ok_type}, {runtime}::Singular>",
-                self.types.known("Result")
-            )
-        };
-        let (position_result, last_result) = (result_type("Self::AtPosition"), result_type("()"));
+        let vector = format!("[{f64}; {}]", self.program.dimension());
         let after_time = if time {
             self.types.at_time.clone()
         } else {
@@ -103,91 +94,109 @@ impl Emitter<'_> {
         } else {
             format!("({after_time}, {vector})")
         };
-        let call = |role: Role| {
-            let function = self.program.function(role)?;
-            let call = self.call_with(&role.name(), self.needs(function));
-            Some((call, self.needs(function), self.fails(function)))
-        };
-        let calls = [Role::AtTime, Role::AtPosition].map(call);
-        let [of_time, of_position] = calls;
-        let last_call = self.call_with(&Role::AccelerationsAt.name(), self.needs(last));
-        let (needs, fails) = (self.needs(last), self.fails(last));
-        let shown = |name: &str, is_read: bool, kind: &str| {
-            format!("{}: {kind}", if is_read { name } else { "_" })
-        };
-
         self.writer.gap();
         self.writer.open(format!(
-            "impl {runtime}::Staged for {} {{",
-            self.types.prepared
+            "impl {}::Staged for {} {{",
+            self.options.runtime, self.types.prepared
         ));
         self.writer.line(format!("type AtTime = {after_time};"));
         self.writer
             .line(format!("type AtPosition = {after_position};"));
+        self.at_time(&f64);
+        self.at_position(&vector);
+        self.accelerations_at(last, &vector);
+        self.writer.close("}");
+    }
 
+    /// A `Result` with the error that there are no accelerations.
+    fn or_singular(&self, ok_type: &str) -> String {
+        let result = self.types.known("Result");
+        format!("{result}<{ok_type}, {}::Singular>", self.options.runtime)
+    }
+
+    /// Writes `at_time`: without a stage of time, time itself.
+    fn at_time(&mut self, f64: &str) {
+        let function = self.program.function(Role::AtTime);
+        let reads_time = function.is_none_or(|function| self.needs(function).time);
         self.writer.gap();
-        let reads_time = of_time.as_ref().is_none_or(|(_, needs, _)| needs.time);
         self.writer.signature(
             "fn at_time",
-            &["&self".into(), shown("t", reads_time, &f64)],
+            &["&self".into(), argument("t", reads_time, f64)],
             Some("Self::AtTime"),
         );
-        match of_time {
-            Some((call, ..)) => self.writer.line(call),
+        match function {
+            Some(function) => {
+                let call = self.call_with(&Role::AtTime.name(), self.needs(function));
+                self.writer.line(call);
+            }
             None => self.writer.line("t"),
         }
         self.writer.close("}");
+    }
 
-        self.writer.gap();
-        let reads = of_position.as_ref().map(|(_, needs, _)| *needs);
+    /// Writes `at_position`: without a stage of coordinates, what was known before and the coordinates.
+    fn at_position(&mut self, vector: &str) {
+        let function = self.program.function(Role::AtPosition);
+        let reads = function.map(|function| self.needs(function));
         let reads_before = reads.is_none_or(|reads| reads.at_time || reads.time);
+        let reads_coordinates = reads.is_none_or(|reads| reads.coordinates);
+        let result = self.or_singular("Self::AtPosition");
+        self.writer.gap();
         self.writer.signature(
             "fn at_position",
             &[
                 "&self".into(),
-                shown("at", reads_before, "&Self::AtTime"),
-                shown(
-                    "q",
-                    reads.is_none_or(|reads| reads.coordinates),
-                    &format!("&{vector}"),
-                ),
+                argument("at", reads_before, "&Self::AtTime"),
+                argument("q", reads_coordinates, &format!("&{vector}")),
             ],
-            Some(&position_result),
+            Some(&result),
         );
-        match of_position {
-            Some((call, reads, _)) => {
+        match reads {
+            Some(reads) => {
                 if reads.time {
                     self.writer.line("let t = *at;");
                 }
+                let call = self.call_with(&Role::AtPosition.name(), reads);
                 self.writer.line(call);
             }
             None => self.writer.line("Ok((*at, *q))"),
         }
         self.writer.close("}");
+    }
 
-        self.writer.gap();
+    /// Writes `accelerations_at`, the last stage.
+    fn accelerations_at(&mut self, last: &Function, vector: &str) {
+        let coordinates = self.program.stages.coordinates;
+        let needs = self.needs(last);
+        let call = self.call_with(&Role::AccelerationsAt.name(), needs);
+        let result = self.or_singular("()");
         let reads_before =
             needs.at_position || (!coordinates && (needs.at_time || needs.coordinates));
+        self.writer.gap();
         self.writer.signature(
             "fn accelerations_at",
             &[
                 "&self".into(),
-                shown("at", reads_before, "&Self::AtPosition"),
-                shown("v", needs.velocities, &format!("&{vector}")),
-                shown("u", needs.inputs, "&Self::Inputs"),
+                argument("at", reads_before, "&Self::AtPosition"),
+                argument("v", needs.velocities, &format!("&{vector}")),
+                argument("u", needs.inputs, "&Self::Inputs"),
                 format!("a: &mut {vector}"),
             ],
-            Some(&last_result),
+            Some(&result),
         );
         if !coordinates && reads_before {
             let at = if needs.at_time { "at" } else { "_" };
             let q = if needs.coordinates { "q" } else { "_" };
             self.writer.line(format!("let ({at}, {q}) = at;"));
         }
-        let question = if fails { "?" } else { "" };
-        self.writer.line(format!("*a = {last_call}{question};"));
+        let question = if self.fails(last) { "?" } else { "" };
+        self.writer.line(format!("*a = {call}{question};"));
         self.writer.line("Ok(())");
         self.writer.close("}");
-        self.writer.close("}");
     }
+}
+
+/// An argument of a function, which may not read it.
+fn argument(name: &str, is_read: bool, kind: &str) -> String {
+    format!("{}: {kind}", if is_read { name } else { "_" })
 }

@@ -59,21 +59,7 @@ fn placeholder_chart(spec: &Spec, program: &Program) -> Option<(Program, Vec<[us
 
 /// A machine with the names of a spec, as far as they can be determined, that does not move.
 fn placeholder_program(spec: &Spec) -> Program {
-    let slots = |items: &[Item<Quantity>]| {
-        let mut slots: Vec<Slot> = Vec::new();
-        for slot in items.iter().flat_map(|item| placeholder_slots(spec, item)) {
-            // A duplicate declaration is one of the reported errors.
-            let clashes = |known: &Slot| {
-                known.name == slot.name
-                    || (known.name.base == slot.name.base
-                        && known.name.index.is_some() != slot.name.index.is_some())
-            };
-            if !slots.iter().any(clashes) {
-                slots.push(slot);
-            }
-        }
-        slots
-    };
+    let slots = |items: &[Item<Quantity>]| all_slots(spec, items);
     let mut coordinates = slots(&spec.coordinates);
     let states = slots(&spec.states).into_iter();
     coordinates.extend(states.map(|slot| Slot {
@@ -81,24 +67,6 @@ fn placeholder_program(spec: &Spec) -> Program {
         ..slot
     }));
     let n = coordinates.len();
-    let zeros = |role, shape: Shape| {
-        let (code, results) = if shape.is_empty() {
-            (Vec::new(), Vec::new())
-        } else {
-            (
-                vec![Op::Constant(Rational::ZERO)],
-                vec![Value(0); shape.len()],
-            )
-        };
-        Function {
-            role,
-            code,
-            shape,
-            results,
-            guards: Vec::new(),
-            steps: Vec::new(),
-        }
-    };
     let outputs = slots(&spec.outputs);
     let sizes = Sizes {
         coordinates: n,
@@ -145,6 +113,43 @@ fn placeholder_program(spec: &Spec) -> Program {
         start: zeros(Role::Start, Shape::Vector(n)),
         functions,
         choices: Vec::new(),
+    }
+}
+
+/// The members of all items of a section, each name once.
+fn all_slots(spec: &Spec, items: &[Item<Quantity>]) -> Vec<Slot> {
+    let mut slots: Vec<Slot> = Vec::new();
+    for slot in items.iter().flat_map(|item| placeholder_slots(spec, item)) {
+        // A duplicate declaration is one of the reported errors.
+        let clashes = |known: &Slot| {
+            known.name == slot.name
+                || (known.name.base == slot.name.base
+                    && known.name.index.is_some() != slot.name.index.is_some())
+        };
+        if !slots.iter().any(clashes) {
+            slots.push(slot);
+        }
+    }
+    slots
+}
+
+/// A function whose results are zero.
+fn zeros(role: Role, shape: Shape) -> Function {
+    let (code, results) = if shape.is_empty() {
+        (Vec::new(), Vec::new())
+    } else {
+        (
+            vec![Op::Constant(Rational::ZERO)],
+            vec![Value(0); shape.len()],
+        )
+    };
+    Function {
+        role,
+        code,
+        shape,
+        results,
+        guards: Vec::new(),
+        steps: Vec::new(),
     }
 }
 

@@ -41,6 +41,54 @@ pub(super) struct Row {
     pub by: Vec<Vec<f64>>,
 }
 
+/// What makes the derivatives of the measured quantities of those of the motion.
+struct RowOfDerivatives<'r> {
+    columns: &'r [Column],
+    /// The points whose polar coordinates the spec states, in a run in Cartesian ones.
+    points: &'r [[usize; 2]],
+    /// The number of coordinates.
+    n: usize,
+    /// The places of the numbers that affect the experiment.
+    affecting: &'r [usize],
+    /// The sizes by which all numbers are scaled.
+    sizes: &'r [f64],
+}
+
+impl RowOfDerivatives<'_> {
+    /// The derivatives at an instant, by the numbers themselves.
+    fn row(
+        &self,
+        system: &VariedSystem,
+        (t, q, v): (f64, &Vec<f64>, &Vec<f64>),
+        (a, u): (&Vec<f64>, &VariedInputs),
+    ) -> Row {
+        let n = self.n;
+        let (mut shown_q, mut shown_v) = (q.clone(), v.clone());
+        charts::to_polar(self.points, n, [&mut shown_q, &mut shown_v]);
+        let of_each = |list: &[f64], i: usize| -> Vec<f64> {
+            (1..=self.affecting.len())
+                .map(|k| list[k * n + i])
+                .collect()
+        };
+        let by = |column: &Column| -> Vec<f64> {
+            let scaled = match column.quantity {
+                Quantity::Coordinate(i) => of_each(&shown_q, i),
+                Quantity::Rate(i) => of_each(&shown_v, i),
+                Quantity::Output(i) => system.output(i, t, [q, v, a], u),
+            };
+            let mut all = vec![0.0; self.sizes.len()];
+            for (j, by) in self.affecting.iter().zip(scaled) {
+                all[*j] = by / self.sizes[*j];
+            }
+            all
+        };
+        Row {
+            values: Vec::new(),
+            by: self.columns.iter().map(by).collect(),
+        }
+    }
+}
+
 impl Fit<'_> {
     /// The machine in whose coordinates a run is made, with its start there; and for each point in polar coordinates that this run has in
     /// Cartesian ones the indices of its coordinates. A negative distance exists only in polar coordinates.
@@ -256,73 +304,72 @@ impl Fit<'_> {
         self.set_varied_start(experiment, x, &machine, &affecting, &mut start)?;
         charts::to_cartesian(points, n, [&mut start.q, &mut start.v]);
         self.set_start_on_constraints(experiment, x, (&machine, &affecting), &mut start)?;
-        let off_constraints = |end: &State<Vec<f64>>| {
-            if self.is_held(experiment) {
-                self.off_constraints(experiment, x, end, &affecting)
-            } else {
-                0.0
-            }
+        let derivatives = RowOfDerivatives {
+            columns: &measured.columns,
+            points,
+            n,
+            affecting: &affecting,
+            sizes: &sizes,
         };
-        let at = |system: &VariedSystem,
-                  (t, q, v): (f64, &Vec<f64>, &Vec<f64>),
-                  (a, u): (&Vec<f64>, &VariedInputs)| {
-            let (mut shown_q, mut shown_v) = (q.clone(), v.clone());
-            charts::to_polar(points, n, [&mut shown_q, &mut shown_v]);
-            let of_each = |list: &[f64], i: usize| -> Vec<f64> {
-                (1..=affecting.len()).map(|k| list[k * n + i]).collect()
-            };
-            let by = |column: &Column| -> Vec<f64> {
-                let scaled = match column.quantity {
-                    Quantity::Coordinate(i) => of_each(&shown_q, i),
-                    Quantity::Rate(i) => of_each(&shown_v, i),
-                    Quantity::Output(i) => system.output(i, t, [q, v, a], u),
-                };
-                let mut all = vec![0.0; sizes.len()];
-                for (j, by) in affecting.iter().zip(scaled) {
-                    all[*j] = by / sizes[*j];
-                }
-                all
-            };
-            Row {
-                values: Vec::new(),
-                by: measured.columns.iter().map(by).collect(),
-            }
+        let (rows, end) = if machine.program().unilateral.is_empty() {
+            self.rows_along(&varied, measured, start, &derivatives)?
+        } else {
+            self.rows_across(&varied, measured, &start, &derivatives)?
         };
-        if !machine.program().unilateral.is_empty() {
-            let wanted = across::Wanted {
-                machine: &machine,
-                signals: &measured.signals,
-                directions: varied.directions.clone(),
-                method: self.running.method,
-                tolerance: self.running.tolerance,
-                until: measured.times.last().copied().unwrap_or(0.0),
-                most_steps: self.running.most_steps,
-            };
-            let run = across::run(&wanted, &start).map_err(|why| match why {
-                NoDerivatives::Run(error) => RunFailure::Trouble(self.failure(measured, error)),
-                broken => RunFailure::WithoutDerivatives(broken.to_string()),
-            })?;
-            let row = |t: &f64| -> Result<Row, lagrangian::Error> {
-                let State { q, v, .. } = run.at(*t)?;
-                let observed = run.observe(*t, (&q, &v))?;
-                Ok(at(
-                    observed.system,
-                    (*t, &q, &v),
-                    (&observed.a, &observed.inputs),
-                ))
-            };
-            let rows: Result<Vec<Row>, _> = measured.times.iter().map(row).collect();
-            let rows = rows.map_err(|error| self.failure(measured, error))?;
-            let off = off_constraints(run.end());
-            return self.checked(experiment, rows, off);
-        }
-        let system = varied.prepare();
-        let simulation = Simulation::new(&varied).law(VariedLaw(&measured.signals));
+        let off_constraints = if self.is_held(experiment) {
+            self.off_constraints(experiment, x, &end, &affecting)
+        } else {
+            0.0
+        };
+        self.checked(experiment, rows, off_constraints)
+    }
+
+    /// The rows of a run whose derivatives are continued across impacts and changes of contacts, and its end.
+    fn rows_across(
+        &self,
+        varied: &Varied<'_>,
+        measured: &Experiment,
+        start: &State<Vec<f64>>,
+        derivatives: &RowOfDerivatives<'_>,
+    ) -> Result<(Vec<Row>, State<Vec<f64>>), RunFailure> {
+        let wanted = across::Wanted {
+            machine: varied.machine,
+            signals: &measured.signals,
+            directions: varied.directions.clone(),
+            method: self.running.method,
+            tolerance: self.running.tolerance,
+            until: measured.times.last().copied().unwrap_or(0.0),
+            most_steps: self.running.most_steps,
+        };
+        let run = across::run(&wanted, start).map_err(|why| match why {
+            NoDerivatives::Run(error) => RunFailure::Trouble(self.failure(measured, error)),
+            broken => RunFailure::WithoutDerivatives(broken.to_string()),
+        })?;
+        let row = |t: &f64| -> Result<Row, lagrangian::Error> {
+            let State { q, v, .. } = run.at(*t)?;
+            let observed = run.observe(*t, (&q, &v))?;
+            let (a, u) = (&observed.a, &observed.inputs);
+            Ok(derivatives.row(observed.system, (*t, &q, &v), (a, u)))
+        };
+        let rows: Result<Vec<Row>, _> = measured.times.iter().map(row).collect();
+        let rows = rows.map_err(|error| self.failure(measured, error))?;
+        Ok((rows, run.end().clone()))
+    }
+
+    /// The rows of a run of the variational equations, and its end.
+    fn rows_along(
+        &self,
+        varied: &Varied<'_>,
+        measured: &Experiment,
+        start: State<Vec<f64>>,
+        derivatives: &RowOfDerivatives<'_>,
+    ) -> Result<(Vec<Row>, State<Vec<f64>>), RunFailure> {
+        let system = &varied.prepare();
+        let simulation = Simulation::new(varied).law(VariedLaw(&measured.signals));
         let simulation = self.set(simulation, measured);
         let order = self.running.method.tableau.order;
         let mut rows: Vec<Row> = Vec::with_capacity(measured.times.len());
         let recorded = &mut rows;
-        let (system, at) = (&system, &at);
         let simulation = simulation.each_step(move |step| {
             while let Some(t) = next_due_time(&measured.times, recorded.len(), step.span()) {
                 let State { q, v, .. } = step.state(t)?;
@@ -335,14 +382,14 @@ impl Fit<'_> {
                     }
                     step.accelerations((t, &q, &v), &u, &mut a)?;
                 }
-                recorded.push(at(system, (t, &q, &v), (&a, &u)));
+                recorded.push(derivatives.row(system, (t, &q, &v), (&a, &u)));
             }
             Ok(())
         });
         let run = VariedLaw::run(simulation, start);
         let run = run.map_err(|error| self.failure(measured, error))?;
-        let off = off_constraints(run.end());
-        self.checked(experiment, rows, off)
+        let end = run.end().clone();
+        Ok((rows, end))
     }
 
     /// The places of the numbers that affect an experiment, and the directions of differentiation by these numbers, scaled by their sizes so

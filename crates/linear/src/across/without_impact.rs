@@ -90,6 +90,7 @@ impl Passing<'_, '_> {
             | PhaseCause::Stops(k)
             | PhaseCause::Breaks(k)
             | PhaseCause::Presses(k)
+            | PhaseCause::Switches(k)
             | PhaseCause::Turns(k) => k,
             PhaseCause::Stepped => {
                 return Err(self.broken(

@@ -29,7 +29,7 @@ pub(super) fn smooth(
     let weight = |k: usize| 0.5 + (k * 29 % 97) as f64 / 97.0;
     let m = reduced.constraints();
     let mut jump = |only: Option<usize>| -> Option<usize> {
-        let mut numbers = |by: f64| -> Vec<Number> {
+        let numbers = |by: f64| -> Vec<Number> {
             let moved = state.iter().enumerate().map(|(k, x)| {
                 let weight = match only {
                     Some(one) if one != k => 0.0,
@@ -55,29 +55,7 @@ pub(super) fn smooth(
             reduced.inputs_mut().copy_from_slice(&u);
             numbers
         };
-        let here = numbers(0.0);
-        let [far, near] = NEAR.map(|by| {
-            let (above, below) = (numbers(by), numbers(-by));
-            let off = |x: DoubleDouble, y: DoubleDouble| (x - y).hi().abs();
-            let differ = above.iter().zip(&below).zip(&here).map(|((x, y), z)| {
-                [
-                    off(x.value, y.value),
-                    off(x.derivative, y.derivative),
-                    // At a corner itself dual numbers take some slope between the slopes of the two sides.
-                    off(x.derivative, z.derivative),
-                ]
-            });
-            differ.collect::<Vec<[f64; 3]>>()
-        });
-        let all = numbers(NEAR[0]);
-        let sizes = all.iter().flat_map(|x| [x.value.hi(), x.derivative.hi()]);
-        let largest = sizes.fold(0.0, |largest: f64, x| largest.max(x.abs()));
-        (0..all.len()).find(|&i| {
-            let pairs = near[i].iter().zip(far[i]);
-            let mut stays =
-                pairs.map(|(near, far)| *near > 0.5 * far && *near > ROUNDING * largest);
-            stays.any(|stays| stays)
-        })
+        first_corner(numbers)
     };
     let Some(index) = jump(None) else {
         return Ok(());
@@ -102,6 +80,32 @@ pub(super) fn smooth(
         Some(k) if k < 2 * n => Some(rate(&named_request.coordinates[k - n], 1).name),
         _ => None,
     }))
+}
+
+/// The first of the numbers at a distance from a state that has a corner or a jump there.
+fn first_corner(mut numbers: impl FnMut(f64) -> Vec<Number>) -> Option<usize> {
+    let here = numbers(0.0);
+    let [far, near] = NEAR.map(|by| {
+        let (above, below) = (numbers(by), numbers(-by));
+        let off = |x: DoubleDouble, y: DoubleDouble| (x - y).hi().abs();
+        let differ = above.iter().zip(&below).zip(&here).map(|((x, y), z)| {
+            [
+                off(x.value, y.value),
+                off(x.derivative, y.derivative),
+                // At a corner itself dual numbers take some slope between the slopes of the two sides.
+                off(x.derivative, z.derivative),
+            ]
+        });
+        differ.collect::<Vec<[f64; 3]>>()
+    });
+    let all = numbers(NEAR[0]);
+    let sizes = all.iter().flat_map(|x| [x.value.hi(), x.derivative.hi()]);
+    let largest = sizes.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    (0..all.len()).find(|&i| {
+        let pairs = near[i].iter().zip(far[i]);
+        let mut stays = pairs.map(|(near, far)| *near > 0.5 * far && *near > ROUNDING * largest);
+        stays.any(|stays| stays)
+    })
 }
 
 /// How many terms precede the outputs.

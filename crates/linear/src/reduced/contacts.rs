@@ -1,9 +1,9 @@
 //! Unilateral contacts at equilibria and in linear models.
 //!
 //! A contact with `compliance` presses where its gap is negative, with the force of its law, which is part of f. A rigid contact counts as
-//! open: where it is closed there is no linear model, because what a force does depends on the side to which it acts. Where contacts
-//! are open by a margin the model is that of the machine without them, and where contacts that yield are closed by a margin, that
-//! with their stiffness and damping.
+//! open: where it is closed there is no linear model, because the effect of a force depends on its direction. Where contacts
+//! are open by a margin, the model is that of the machine without them; where compliant contacts are closed by a margin, it
+//! includes their stiffness and damping.
 
 use lagrangian::{Compliance, System};
 use lagrangian_program::Role;

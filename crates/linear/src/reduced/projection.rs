@@ -69,17 +69,7 @@ impl Reduced<'_> {
             let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
             let (rows, lower) = (self.rows(&near), self.metric(&near));
             let off = self.positions(q);
-            let mut matrix = DMatrix::zeros(held.len(), n);
-            let mut scale = DVector::zeros(held.len());
-            for (i, &k) in held.iter().enumerate() {
-                let row = DVector::from_fn(n, |j, _| if may(j) { rows[(k, j)] } else { 0.0 });
-                let measured = lower
-                    .solve_lower_triangular(&row)
-                    .ok_or(Fault::Singular(0))?;
-                let size = measured.norm();
-                scale[i] = if size > 0.0 { size } else { 1.0 };
-                matrix.set_row(i, &(measured / scale[i]).transpose());
-            }
+            let (matrix, scale) = measured(&rows, &lower, &held, may)?;
             let scaled = |off: &[f64]| DVector::from_fn(held.len(), |i, _| off[held[i]] / scale[i]);
             let residuals = scaled(&off);
             if !residuals.iter().chain(matrix.iter()).all(|x| x.is_finite()) {
@@ -128,18 +118,45 @@ impl Reduced<'_> {
             }
             before = longest;
         }
-        // Checks each row against its round-off.
+        self.check_met(q, &held)
+    }
+
+    /// Checks each of these constraints against its round-off.
+    fn check_met(&mut self, q: &[DoubleDouble], held: &[usize]) -> Result<(), Fault> {
         let off = self.positions(q);
         let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
         let rows = self.rows(&near);
         let unmet = held.iter().copied().find(|&k| {
-            let size: f64 = (0..n)
+            let size: f64 = (0..q.len())
                 .map(|j| (rows[(k, j)] * near[j].abs().max(1.0)).abs())
                 .sum();
             off[k].is_nan() || off[k].abs() > 1e-12 * size
         });
         unmet.map_or(Ok(()), |k| Err(Fault::Unmet(k)))
     }
+}
+
+/// The rows of these constraints among the coordinates that `may` move, measured by the metric `L Lᵀ` with the `lower` factor L and scaled to
+/// length 1; and their lengths.
+fn measured(
+    rows: &DMatrix<f64>,
+    lower: &DMatrix<f64>,
+    held: &[usize],
+    may: &dyn Fn(usize) -> bool,
+) -> Result<(DMatrix<f64>, DVector<f64>), Fault> {
+    let n = lower.nrows();
+    let mut matrix = DMatrix::zeros(held.len(), n);
+    let mut scale = DVector::zeros(held.len());
+    for (i, &k) in held.iter().enumerate() {
+        let row = DVector::from_fn(n, |j, _| if may(j) { rows[(k, j)] } else { 0.0 });
+        let measured = lower
+            .solve_lower_triangular(&row)
+            .ok_or(Fault::Singular(0))?;
+        let size = measured.norm();
+        scale[i] = if size > 0.0 { size } else { 1.0 };
+        matrix.set_row(i, &(measured / scale[i]).transpose());
+    }
+    Ok((matrix, scale))
 }
 
 /// The damped least-squares solution of `A x = r` from the singular value decomposition of A. Components whose

@@ -90,7 +90,7 @@ impl fmt::Display for UnmetCondition {
             }
             Self::Quaternion => write!(
                 f,
-                "a frame is turned by four numbers, whose norm is not part of the motion: turn it by angles"
+                "a frame is turned by a quaternion, whose length is not part of the motion: turn it by angles"
             ),
             Self::NoCoordinates => write!(f, "the machine has no coordinates"),
         }

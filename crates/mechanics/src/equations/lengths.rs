@@ -27,7 +27,7 @@ pub(super) fn report_dependence_on_lengths(model: &Model<'_>, report: &mut Repor
         let span = model
             .section(SectionKind::Approximations)
             .unwrap_or(first.span);
-        let message = "`approximations` of a machine with a frame turned by four numbers cannot be derived yet";
+        let message = "`approximations` of a machine with a frame turned by a quaternion cannot be derived yet";
         let help = "turn the frame by angles, which may be small, or leave `approximations` out";
         report.push(Diagnostic::new(Code::NotSupported, span, message).help(help));
         refused = true;
@@ -46,10 +46,10 @@ pub(super) fn report_dependence_on_lengths(model: &Model<'_>, report: &mut Repor
         let name = &model.coordinates[places[0]].name;
         for (what, span) in longer.dependent_expressions(model, &places) {
             let message =
-                format!("{what} depends on the norm of the four numbers that begin with `{name}`");
-            let help = "they turn a frame, and only their ratios have a meaning: express it by the frame, its `point`, `vector` or `spin`";
+                format!("{what} depends on the length of the quaternion that begins with `{name}`");
+            let help = "a quaternion turns a frame, and its length has no meaning: express this by the frame, its `point`, `vector` or `spin`";
             let diagnostic = Diagnostic::new(Code::ForbiddenDependence, span, message);
-            let note = "the frame is turned by them here";
+            let note = "the quaternion turns a frame here";
             report.push(diagnostic.note(four.span, note).help(help));
             refused = true;
         }
@@ -114,8 +114,9 @@ impl<'d> LengthVariation<'d> {
         }
         for (element, contribution) in model.contributions() {
             if self.works_on_length(contribution, four) {
-                let noun = element.section.item;
-                found.push((format!("{noun} `{}`", element.name), element.span));
+                let item = element.section.item;
+                let noun = item.split_once(' ').map_or(item, |(_article, noun)| noun);
+                found.push((format!("the {noun} `{}`", element.name), element.span));
             }
         }
         for circle in &model.circles {

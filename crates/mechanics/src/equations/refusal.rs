@@ -10,6 +10,7 @@ use super::sliding::MOST_CONTACTS;
 use super::symmetric::Symmetric;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
+use lagrangian_spec::model::element::Sliding;
 use lagrangian_spec::model::polygons::Corner;
 use lagrangian_spec::model::{
     Circle, Contact, ContactGeometry, FrameOrBody, ImpactLaw, MOST_UNILATERAL, Model, Name,
@@ -73,9 +74,7 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
     }
     let mut refusals = Refusals::new(report);
     if let Some(sliding) = model.sliding().first() {
-        let message = "`sliding` of a machine with `contacts` cannot be derived yet";
-        let help = "without `sliding`, or without `contacts`, it can be derived";
-        refusals.refuse(Code::NotSupported, sliding.span, message, help);
+        refuse_guides_beside_contacts(model, sliding, &mut refusals);
     }
     let contacts = model.contacts.iter();
     for contact in contacts.filter(|c| c.has_two_tangents(model.space)) {
@@ -91,6 +90,34 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
     refuse_many_contacts(model, &mut refusals);
     refuse_different_impacts(model, &mut refusals);
     refusals.any
+}
+
+/// Refuses what guides beside unilateral contacts do not support.
+fn refuse_guides_beside_contacts(
+    model: &Model<'_>,
+    first: &Sliding<'_>,
+    refusals: &mut Refusals<'_>,
+) {
+    if model.space == Space::Space {
+        let message = "in space `sliding` of a machine with `contacts` cannot be derived yet";
+        let help =
+            "in the plane it can be derived; in space without `sliding`, or without `contacts`";
+        refusals.refuse(Code::NotSupported, first.span, message, help);
+    }
+    for contact in &model.contacts {
+        let law = contact.response.impact_law();
+        if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
+            let message = format!("`law: {}` does not support `sliding`", law.name());
+            let help = "Routh's path is that of one point, and a guide takes part in the impact: the laws `newton` and `poisson_glocker` support it";
+            refusals.refuse(Code::NotSupported, contact.span, message, help);
+        }
+        if contact.response.painleve() == Painleve::Impact {
+            let message = "`painleve: impact` does not support `sliding`";
+            let help =
+                "leave it out: the run then ends with an error where friction admits no motion";
+            refusals.refuse(Code::NotSupported, contact.span, message, help);
+        }
+    }
 }
 
 /// Refuses the laws that friction along two tangents does not support.

@@ -73,6 +73,8 @@ pub struct Reaction<'d> {
     pub by_multipliers: Vec<Expr<'d>>,
     /// `κ(q, t)`, the coefficients of the friction forces of the contacts.
     pub by_friction_forces: Vec<Expr<'d>>,
+    /// The coefficients of the forces of unilateral contacts, two of each: along its normal and along its tangent.
+    pub by_contact_forces: Vec<Expr<'d>>,
 }
 
 impl<'d> SlidingEquation<'d> {
@@ -144,15 +146,17 @@ impl<'d> Reaction<'d> {
             .by_accelerations
             .iter_mut()
             .chain(&mut self.by_multipliers)
-            .chain(&mut self.by_friction_forces);
+            .chain(&mut self.by_friction_forces)
+            .chain(&mut self.by_contact_forces);
         std::iter::once(&mut self.load).chain(lists)
     }
 }
 
 /// The contacts of a machine; nothing, and a message for each reason, if a guide is invalid or its
-/// reaction is undetermined.
+/// reaction is undetermined. `of_contacts` are the rows of all directions of the unilateral contacts of the relaxed machine.
 pub(super) fn sliding<'d>(
     model: &Model<'d>,
+    of_contacts: &[Vec<Expr<'d>>],
     report: &mut Report,
 ) -> Option<Vec<SlidingEquation<'d>>> {
     let all = model.sliding();
@@ -172,7 +176,7 @@ pub(super) fn sliding<'d>(
     }
     let x = Variables::of(model);
     let relaxed = model.relaxed.as_deref()?;
-    let reactions = Reactions::of(model, relaxed, &guides);
+    let reactions = Reactions::of(model, relaxed, &guides, of_contacts);
     let Some(solved) = reactions.solved() else {
         let names = all.iter().filter(|s| !s.is_second());
         let names = names.map(|s| format!("`{}`", s.name));
@@ -402,7 +406,12 @@ struct Reactions<'d> {
 }
 
 impl<'d> Reactions<'d> {
-    fn of(model: &Model<'d>, relaxed: &Model<'d>, guides: &[Guide<'d>]) -> Reactions<'d> {
+    fn of(
+        model: &Model<'d>,
+        relaxed: &Model<'d>,
+        guides: &[Guide<'d>],
+        of_contacts: &[Vec<Expr<'d>>],
+    ) -> Reactions<'d> {
         let dag = model.dag;
         let x = Variables::of(relaxed);
         let n = model.coordinates.len();
@@ -455,6 +464,9 @@ impl<'d> Reactions<'d> {
                     .map(|c| along(k, &|i| -c.row[i]))
                     .collect(),
                 by_friction_forces: slips.iter().map(|slip| along(k, &|i| -slip[i])).collect(),
+                by_contact_forces: (of_contacts.iter())
+                    .map(|row| along(k, &|i| -row[i]))
+                    .collect(),
             });
             let share = offs.iter().map(|off| along(k, &|i| off[i]));
             shares.push(share.collect());

@@ -54,6 +54,8 @@ pub struct UnilateralEquation<'d> {
     /// For a corner on a face of a polygon, its distance outside the face, its distance beyond the ends of the face, and the
     /// rate of the latter.
     pub face: Option<[Expr<'d>; 3]>,
+    /// Whether it is a guide: see [`Unilateral`](lagrangian_program::Unilateral).
+    pub is_guide: bool,
 }
 
 /// A direction of a contact.
@@ -214,6 +216,7 @@ fn of_contact<'d>(
         is_rolling_resistance: false,
         is_second_tangent: false,
         face: touch.face,
+        is_guide: false,
     };
     let further = match (touch.across, &contact.geometry, contact.rolling_resistance) {
         (Some(across), ..) if has_friction => {

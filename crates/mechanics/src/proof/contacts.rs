@@ -5,7 +5,7 @@ use super::{Computed, Prover, Sum, Verdict, equal, first_difference};
 use crate::Disagreement;
 use crate::equations::guide::{guides_of, occurs_in_equation};
 use crate::equations::literal::{Lagrange, Literal, LiteralSliding, State};
-use lagrangian_program::{FrictionLayout, FrictionResponse, Role};
+use lagrangian_program::{FrictionLayout, FrictionResponse, Role, Unilateral};
 use lagrangian_spec::model::Space;
 
 impl<R: Number> Prover<'_, '_, R> {
@@ -17,7 +17,14 @@ impl<R: Number> Prover<'_, '_, R> {
         w: &[R],
         literal: &Literal<R>,
     ) -> Result<Vec<R>, Verdict> {
-        let (n, count) = (w.len(), literal.sliding.len());
+        // Beside unilateral contacts guides are among these.
+        let are_contacts = !literal.unilateral.is_empty();
+        let count = if are_contacts {
+            0
+        } else {
+            literal.sliding.len()
+        };
+        let n = w.len();
         if count != self.parts.program.contacts.len() {
             return Err(self.disagreement_at(Role::Slips, 0));
         }
@@ -59,7 +66,15 @@ impl<R: Number> Prover<'_, '_, R> {
         w: &[R],
         literal: &Literal<R>,
     ) -> Result<(), Verdict> {
-        let (n, count) = (w.len(), literal.unilateral.len());
+        let is_guide = |one: &&Unilateral| one.is_guide;
+        let guides = self
+            .parts
+            .program
+            .unilateral
+            .iter()
+            .filter(is_guide)
+            .count();
+        let (n, count) = (w.len(), literal.unilateral.len() + guides);
         if count != self.parts.program.unilateral.len() {
             return Err(self.disagreement_at(Role::Gaps, 0));
         }
@@ -101,6 +116,130 @@ impl<R: Number> Prover<'_, '_, R> {
             for (i, &expected) in contact.coefficients.iter().enumerate() {
                 let i = 4 * k + i;
                 self.compare(Role::ContactCoefficients, i, coefficients[i], expected)?;
+            }
+        }
+        if guides == 0 {
+            return Ok(());
+        }
+        let numbers = ContactNumbers {
+            gaps: &gaps,
+            rates: &rates,
+            rows: &rows,
+            biases: &biases,
+            coefficients: &coefficients,
+        };
+        let signs = self.check_guides_beside_contacts(at, w, literal, &numbers)?;
+        self.check_reactions_beside_contacts(at, literal.unilateral.len(), &signs)
+    }
+
+    /// Compares guides that are among the unilateral contacts: their gaps and normals are 0, and their slips are those of guides. Returns what
+    /// [`check_slips`](Self::check_slips) returns.
+    fn check_guides_beside_contacts(
+        &mut self,
+        at: &State<R>,
+        w: &[R],
+        literal: &Literal<R>,
+        numbers: &ContactNumbers<'_, R>,
+    ) -> Result<Vec<R>, Verdict> {
+        let (n, first) = (w.len(), literal.unilateral.len());
+        let mut signs = Vec::with_capacity(literal.sliding.len());
+        if numbers.gaps.len() != first + literal.sliding.len() {
+            return Err(self.disagreement_at(Role::Gaps, first));
+        }
+        for (guide, contact) in literal.sliding.iter().enumerate() {
+            let k = first + guide;
+            let (normal, tangent) = (2 * k, 2 * k + 1);
+            self.compare(Role::Gaps, k, numbers.gaps[k], R::ZERO)?;
+            self.compare(Role::ContactRates, normal, numbers.rates[normal], R::ZERO)?;
+            self.compare(Role::ContactBias, normal, numbers.biases[normal], R::ZERO)?;
+            for (j, entry) in numbers.rows[normal * n..][..n].iter().enumerate() {
+                self.compare(Role::ContactMatrix, normal * n + j, *entry, R::ZERO)?;
+            }
+            let slip = numbers.rates[tangent];
+            let sign = if equal(slip, contact.slip)? {
+                R::ONE
+            } else if !R::IS_ORDERED {
+                -R::ONE
+            } else {
+                return Err(self.disagreement_at(Role::ContactRates, tangent));
+            };
+            self.compare(Role::ContactRates, tangent, slip, sign * contact.slip)?;
+            let row = &numbers.rows[tangent * n..][..n];
+            let along = Sum::products(row, w).plus(-(sign * contact.slip_along));
+            self.compare_difference(Role::ContactMatrix, tangent * n, along)?;
+            let rate = Sum::products(row, &at.a).plus(numbers.biases[tangent]);
+            let rate = rate.plus(-(sign * contact.slip_rate));
+            self.compare_difference(Role::ContactBias, tangent, rate)?;
+            let [friction, static_friction] = contact.coefficients;
+            let expected = [R::ZERO, R::ZERO, friction, static_friction];
+            for (i, expected) in expected.into_iter().enumerate() {
+                let i = 4 * k + i;
+                self.compare(
+                    Role::ContactCoefficients,
+                    i,
+                    numbers.coefficients[i],
+                    expected,
+                )?;
+            }
+            signs.push(sign);
+        }
+        Ok(signs)
+    }
+
+    /// Checks that the normal reactions of guides that are among the unilateral contacts balance the forces that would open the guides, whatever the
+    /// accelerations, the multipliers and the forces of contacts are. In a field the sides of guides are unknown; every machine with guides is
+    /// also proved in numbers that have an order.
+    fn check_reactions_beside_contacts(
+        &mut self,
+        at: &State<R>,
+        first: usize,
+        signs: &[R],
+    ) -> Result<(), Verdict> {
+        let (n, m) = (at.q.len(), self.parts.program.constraints.len());
+        let (contacts, count) = (first + signs.len(), signs.len());
+        let width = n + m + 2 * contacts;
+        let matrix = self.call(Role::GuideMatrix, at, count * width)?;
+        let loads = self.call(Role::GuideLoads, at, count)?;
+        if !R::IS_ORDERED {
+            return Ok(());
+        }
+        let Some(relaxed) = self.parts.relaxed else {
+            return Err(Verdict::Undefined);
+        };
+        let acting: Vec<R> = (at.a.iter().copied())
+            .chain(self.random_numbers(3, m + 2 * contacts))
+            .collect();
+        let (multipliers, forces) = acting[n..].split_at(m);
+        let normals: Vec<R> = (matrix.chunks_exact(width).zip(&loads))
+            .map(|(row, load)| Sum::products(row, &acting).plus(*load).value)
+            .collect();
+        let literal = self.parts.machine.at(at, &vec![R::ZERO; n]).sliding;
+        let guides = guides_of(relaxed.model);
+        let sides: Vec<R> = literal.iter().map(|contact| contact.side.sign()).collect();
+        if !sides.iter().all(|side| side.is_finite()) {
+            return Err(Verdict::Undefined);
+        }
+        for (k, opening) in openings(relaxed, at, &literal, (&guides, &sides)) {
+            let mut open = Sum::of([opening.inertia, -opening.applied]);
+            for (constraint, &multiplier) in opening.constraints.iter().zip(multipliers) {
+                open = open.plus(-(constraint.along * multiplier));
+            }
+            for (contact, forces) in opening.unilateral.iter().zip(forces.chunks_exact(2)) {
+                open = open.plus(-(contact.gap.along * forces[0]));
+                open = open.plus(-(contact.slip.along * forces[1]));
+            }
+            for (j, contact) in opening.sliding.iter().enumerate() {
+                let friction = signs[j] * forces[2 * (first + j) + 1];
+                open = open.plus(-(contact.slip_along * friction));
+                for &off in &contact.off_along {
+                    open = open.plus(-(sides[j] * off * normals[j]));
+                }
+            }
+            if !open.value.is_finite() {
+                return Err(Verdict::Undefined);
+            }
+            if !open.vanishes()? {
+                return Err(self.disagreement_at(Role::GuideLoads, k));
             }
         }
         Ok(())
@@ -253,6 +392,15 @@ fn openings<R: Number>(
         openings.extend(contact.axes.iter().map(|axis| along(k, axis)));
     }
     openings
+}
+
+/// The numbers of all unilateral contacts.
+struct ContactNumbers<'a, R> {
+    gaps: &'a [R],
+    rates: &'a [R],
+    rows: &'a [R],
+    biases: &'a [R],
+    coefficients: &'a [R],
 }
 
 /// The forces in the guides.

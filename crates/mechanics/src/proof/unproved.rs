@@ -1,4 +1,4 @@
-//! What is said of a program that could not be proved.
+//! The messages about a program that could not be proved.
 
 use std::fmt;
 
@@ -100,7 +100,8 @@ pub(super) fn subject_text(disagreement: &Disagreement, program: &Program) -> St
         match kind {
             ItemKind::Coordinate => format!("`{name}`"),
             ItemKind::Constraint => format!("the constraint `{name}`"),
-            ItemKind::Contact => format!("the guide `{name}`"),
+            ItemKind::Contact | ItemKind::Guide => format!("the guide `{name}`"),
+            ItemKind::OnGuide => format!("`{name}`"),
             ItemKind::Unilateral | ItemKind::Face | ItemKind::Direction | ItemKind::Coefficient => {
                 format!("the contact `{name}`")
             }

@@ -35,15 +35,48 @@ fn sections_that_are_not_derived_yet_are_named() {
             contacts { inside { circle: rim, inside: bowl, restitution: 0.5, friction: 0.1 } }
         }",
     );
-    // Circles alone are only a drawing, and beside contacts alone there may be derivatives.
-    assert_eq!(codes.len(), 2);
-    assert!(codes.iter().all(|(code, _)| *code == Code::NotSupported));
-    let says = |what: &str| codes.iter().filter(|(_, m)| m.starts_with(what)).count();
-    assert_eq!(
-        (says("`sliding`"), says("`derivatives`")),
-        (1, 1),
-        "{codes:?}"
+    // Circles alone are only a drawing, beside contacts alone there may be derivatives, and in the plane contacts may stand beside guides.
+    let [(Code::NotSupported, message)] = &codes[..] else {
+        panic!("{codes:?}");
+    };
+    assert!(message.starts_with("`derivatives`"), "{message}");
+}
+
+#[test]
+fn guides_beside_contacts_are_refused_in_space_and_with_paths_of_one_point() {
+    let in_space = refused(
+        "machine Bead in space {
+            parameters { l: m = 1 }
+            coordinates { x: m }
+            bodies { bead { mass: 1, at: (x, 0*l, 0*l) } }
+            sliding { wire { body: bead, on: ground, direction: (1, 0, 0), friction: 0.1 } }
+            contacts { stop { gap: l - x, restitution: 0.5 } }
+        }",
     );
+    let [(Code::NotSupported, message)] = &in_space[..] else {
+        panic!("{in_space:?}");
+    };
+    assert!(message.starts_with("in space `sliding`"), "{message}");
+    for (law, named) in [
+        ("law: poisson", "`law: poisson`"),
+        ("law: stronge", "`law: stronge`"),
+        ("friction: 0.1, painleve: impact", "`painleve: impact`"),
+    ] {
+        let refused = refused(&format!(
+            "machine Block in plane {{
+                parameters {{ l: m = 1 }}
+                coordinates {{ x: m }}
+                frames {{ seat = ground.shift(x, 0) }}
+                bodies {{ block {{ mass: 1, frame: seat }} }}
+                sliding {{ rail {{ body: block, on: ground, direction: (1, 0), friction: 0.1 }} }}
+                contacts {{ stop {{ gap: l - x, slip: der(x), restitution: 0.5, {law} }} }}
+            }}"
+        ));
+        let [(Code::NotSupported, message)] = &refused[..] else {
+            panic!("{law}: {refused:?}");
+        };
+        assert_eq!(message, &format!("{named} does not support `sliding`"));
+    }
 }
 
 #[test]

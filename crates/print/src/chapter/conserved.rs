@@ -223,33 +223,7 @@ impl<'d> Chapter<'_, 'd> {
     fn absent_terms(&self) -> Vec<Words> {
         let model = self.model;
         let equations = &self.compiled.equations;
-        let matrix = equations.mass_matrix.lower();
-        let mut items = Vec::new();
-        let zeros = matrix.iter().filter(|entry| entry.is_zero()).count();
-        let constants = matrix
-            .iter()
-            .filter(|entry| entry.stage() <= stage::PARAMETER)
-            .count()
-            - zeros;
-        if self.properties.constant_mass_matrix {
-            items.push(words![
-                "The mass matrix is constant: it is known when the parameters are."
-            ]);
-        } else if constants > 0 {
-            let verb = if constants == 1 { "depends" } else { "depend" };
-            let entries = capitalized(&counted(constants, "entry"));
-            items.push(words![format!(
-                "{entries} of the mass matrix, on and below the diagonal, {verb} on parameters only."
-            )]);
-        }
-        if zeros > 0 {
-            let verb = if zeros == 1 { "is" } else { "are" };
-            let entries = capitalized(&counted(zeros, "entry"));
-            items.push(words![format!(
-                "{entries} of the mass matrix, out of {} on and below the diagonal, {verb} zero.",
-                matrix.len()
-            )]);
-        }
+        let mut items = self.simple_entries();
         if self.properties.blocks.len() > 1 {
             items.push(self.blocks());
         }
@@ -283,23 +257,62 @@ impl<'d> Chapter<'_, 'd> {
         if model.loads().next().is_none() {
             items.push(words!["No applied forces or torques."]);
         }
-        let particles = particles(&model.bodies);
-        if !particles.is_empty() {
-            let names = particles
-                .iter()
-                .take(LONGEST_LIST)
-                .map(|body| words![code(&body.name)]);
-            let mut words = words!["No rotational inertia: "];
-            words.extend(listed(names));
-            let more = particles.len().saturating_sub(LONGEST_LIST);
-            words.extend(words![match (more, particles.len(), model.space) {
-                (0, 1, _) => " is a particle.".to_owned(),
-                (0, _, Space::Plane | Space::Space) => " are particles.".to_owned(),
-                (more, ..) => format!(" and {more} more are particles."),
-            }]);
-            items.push(words);
+        items.extend(self.particles());
+        items
+    }
+
+    /// What is simple in the mass matrix: entries that are constant or zero.
+    fn simple_entries(&self) -> Vec<Words> {
+        let equations = &self.compiled.equations;
+        let matrix = equations.mass_matrix.lower();
+        let mut items = Vec::new();
+        let zeros = matrix.iter().filter(|entry| entry.is_zero()).count();
+        let constants = matrix
+            .iter()
+            .filter(|entry| entry.stage() <= stage::PARAMETER)
+            .count()
+            - zeros;
+        if self.properties.constant_mass_matrix {
+            items.push(words![
+                "The mass matrix is constant: it is known when the parameters are."
+            ]);
+        } else if constants > 0 {
+            let verb = if constants == 1 { "depends" } else { "depend" };
+            let entries = capitalized(&counted(constants, "entry"));
+            items.push(words![format!(
+                "{entries} of the mass matrix, on and below the diagonal, {verb} on parameters only."
+            )]);
+        }
+        if zeros > 0 {
+            let verb = if zeros == 1 { "is" } else { "are" };
+            let entries = capitalized(&counted(zeros, "entry"));
+            items.push(words![format!(
+                "{entries} of the mass matrix, out of {} on and below the diagonal, {verb} zero.",
+                matrix.len()
+            )]);
         }
         items
+    }
+
+    /// Which bodies have no rotational inertia, if any.
+    fn particles(&self) -> Option<Words> {
+        let particles = particles(&self.model.bodies);
+        if particles.is_empty() {
+            return None;
+        }
+        let names = particles
+            .iter()
+            .take(LONGEST_LIST)
+            .map(|body| words![code(&body.name)]);
+        let mut words = words!["No rotational inertia: "];
+        words.extend(listed(names));
+        let more = particles.len().saturating_sub(LONGEST_LIST);
+        words.extend(words![match (more, particles.len(), self.model.space) {
+            (0, 1, _) => " is a particle.".to_owned(),
+            (0, _, Space::Plane | Space::Space) => " are particles.".to_owned(),
+            (more, ..) => format!(" and {more} more are particles."),
+        }]);
+        Some(words)
     }
 
     /// Which accelerations are coupled.

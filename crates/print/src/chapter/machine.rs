@@ -188,10 +188,7 @@ impl<'d> Chapter<'_, 'd> {
         let count = moving().count();
         let rates = moving().take(MOST).map(|c| {
             let rate = self.name(c.v).equals(self.value(c.start_rate));
-            let per_second = match c.unit_text.as_str() {
-                "1" => "1/s".to_owned(),
-                unit => format!("{unit}/s"),
-            };
+            let per_second = rate_unit(&c.name.to_string(), &c.unit_text);
             let mut words = words![rate, " "];
             words.extend(unit(&per_second));
             words

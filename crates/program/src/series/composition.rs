@@ -1,4 +1,4 @@
-//! The unknowns of an order as sums of what the order begins with, without residuals.
+//! The unknowns of an order as sums of the numbers that are computed first at that order, without residuals.
 //!
 //! At each order the residuals are sums of [`Source`]s, with the same coefficients except for factors that depend on the order alone, and the
 //! unknowns are sums of the residuals. If there are few unknowns, the product of both matrices is computed once, at the start: the

@@ -7,18 +7,20 @@
 //! those at the start, since the factor of the newest coefficient is of order 0. Where a row of rates is differentiated, rates are
 //! computed to order k + 1, as if the coefficient of `v` were 0 there, and their gradient by `v` times `v₍k₊₁₎` is added afterwards.
 
+mod order;
+mod plan;
+
 use std::marker::PhantomData;
 use std::sync::Arc;
 
 use lagrangian_scalar::{Scalar, series as steps};
-use lagrangian_symbolic::{Function as Call, Rational};
 
 use super::{
-    Arithmetic, Coefficient, Composition, Level, MOST_IN_ONE_SUM, Order, Row, RowId, Series,
-    Source, TermOrder,
+    Arithmetic, Coefficient, Composition, Level, MOST_IN_ONE_SUM, Order, Row, RowId, Series, Source,
 };
 use crate::Singular;
-use crate::interpret::{binary, unary};
+use order::{OrderArithmetic, convolve};
+use plan::{Plan, Sum};
 
 /// A series ready to be expanded over numbers that are stored as `T`. Nothing is allocated after [`Expander::new`].
 #[derive(Clone, Debug)]
@@ -80,13 +82,6 @@ pub struct Expander<T> {
     numbers: Vec<[T; 2]>,
 }
 
-/// A sum over orders: where its factors begin, among the coefficients or their multiples.
-#[derive(Clone, Copy, Debug)]
-struct Sum {
-    factors: [(usize, bool); 2],
-    along: TermOrder,
-}
-
 #[derive(Clone, Debug)]
 struct Block<T> {
     /// The unknowns.
@@ -96,108 +91,6 @@ struct Block<T> {
     matrix: Vec<T>,
     /// For each unknown the coefficients of the sources, if it is [composed](Composition) of them.
     sources: Vec<T>,
-}
-
-/// What an expander reads of a series: the same for every type of number, so that it is made by code that is compiled once.
-struct Plan {
-    by_level: [Vec<u32>; 3],
-    later: Vec<[bool; 2]>,
-    compositions: Vec<Option<Composition>>,
-    changed_by_newest: [Vec<u32>; 3],
-    scaled: Vec<bool>,
-    sums: Vec<Vec<Sum>>,
-    weighted_places: Vec<Option<usize>>,
-    /// The number of weighted coefficients.
-    weighted: usize,
-    places: Vec<usize>,
-    /// The number of partial derivatives.
-    gradients: usize,
-    /// For each block its unknowns, and for each unknown its index among them.
-    blocks: Vec<[Vec<u32>; 2]>,
-}
-
-impl Plan {
-    fn of(series: &Series, width: usize) -> Plan {
-        let rows = series.rows.len();
-        let all = || (0..rows as u32).map(RowId);
-        let at_level = |level: Level| -> Vec<u32> {
-            let rows = all().filter(|row| series.level(*row) == level);
-            rows.map(|row| row.0).collect()
-        };
-        let streams = series.streams();
-        let changes = |row: &u32| !series.depends[*row as usize].is_empty();
-        let mut changed = [Level::Position, Level::Rate, Level::Acceleration].map(at_level);
-        changed.iter_mut().for_each(|rows| rows.retain(changes));
-        changed[2].retain(|row| streams[*row as usize] != [false; 2]);
-        let mut scaled: Vec<bool> = streams.iter().map(|[_, weighted]| *weighted).collect();
-        for row in &series.rows {
-            if let Row::Second(of) = row {
-                scaled[of.index()] = true;
-            }
-        }
-        let mut weighted = 0;
-        let mut take = |count: usize| {
-            weighted += count;
-            weighted - count
-        };
-        let weighted_places = streams.iter().map(|[_, is]| is.then(|| take(width)));
-        let weighted_places: Vec<Option<usize>> = weighted_places.collect();
-        let mut gradients = 0;
-        let mut places = Vec::with_capacity(rows);
-        for depends in &series.depends {
-            places.push(gradients);
-            gradients += depends.len();
-        }
-        let sums = all().map(|row| {
-            let sums = series.convolutions(row).into_iter();
-            let sum = |sum: super::Convolution| Sum {
-                along: sum.along,
-                factors: sum.factors.map(|stream| {
-                    let row = stream.row.index();
-                    match weighted_places[row] {
-                        Some(place) if stream.weighted => (place, true),
-                        _ => (row * width, false),
-                    }
-                }),
-            };
-            sums.map(sum).collect()
-        });
-        let block = |members: Vec<u32>| {
-            let mut place = vec![0; series.unknowns()];
-            for (at, member) in (0..).zip(&members) {
-                place[*member as usize] = at;
-            }
-            [members, place]
-        };
-        let blocks = series.blocks();
-        let compositions = blocks.iter().map(|members| series.composition(members));
-        let compositions: Vec<Option<Composition>> = compositions.collect();
-        let mut later: Vec<[bool; 2]> = series
-            .later_forces()
-            .into_iter()
-            .map(|is| [is, false])
-            .collect();
-        for composition in compositions.iter().flatten() {
-            for source in composition.sources.iter().flatten() {
-                if let Source::Sum(row) = source {
-                    later[row.index()][1] = true;
-                }
-            }
-        }
-        Plan {
-            by_level: [Level::Position, Level::Rate, Level::Acceleration].map(at_level),
-            later,
-            compositions,
-            changed_by_newest: changed,
-            scaled,
-            sums: sums.collect(),
-            weighted,
-            places,
-            gradients,
-            blocks: blocks.into_iter().map(block).collect(),
-            weighted_places,
-        }
-    }
 }
 
 impl<T: Scalar<Stored = T>> Expander<T> {
@@ -723,236 +616,4 @@ impl<T: Copy> Expander<T> {
             N::load(*g).mul_add(N::load(self.unknowns[*i as usize]), sum)
         })
     }
-}
-
-/// The recurrences at one order, in numbers `N`.
-struct OrderArithmetic<'e, T, N> {
-    expander: &'e mut Expander<T>,
-    /// 0 for rows of positions.
-    level: usize,
-    m: usize,
-    t: N,
-    numbers: PhantomData<N>,
-}
-
-impl<T: Copy, N: Scalar<Stored = T>> OrderArithmetic<'_, T, N> {
-    #[inline(always)]
-    fn read(&self, row: RowId, m: usize) -> N {
-        N::load(self.expander.coefficients[row.index() * self.expander.width + m])
-    }
-
-    /// How many orders the level of the computed row is ahead of the accelerations.
-    #[inline(always)]
-    fn lead(&self) -> usize {
-        match self.level {
-            0 => 2,
-            1 => usize::from(self.expander.series.rates_are_ahead),
-            _ => 0,
-        }
-    }
-}
-
-impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for OrderArithmetic<'_, T, N> {
-    type X = N;
-
-    #[inline(always)]
-    fn zero(&mut self) -> N {
-        N::ZERO
-    }
-    #[inline(always)]
-    fn one(&mut self) -> N {
-        N::ONE
-    }
-    #[inline(always)]
-    fn rational(&mut self, value: &Rational) -> N {
-        value.evaluate()
-    }
-    #[inline(always)]
-    fn pi(&mut self) -> N {
-        N::pi()
-    }
-    #[inline(always)]
-    fn parameter(&mut self, index: u32) -> N {
-        N::load(self.expander.parameters[index as usize])
-    }
-    #[inline(always)]
-    fn input(&mut self, index: u32) -> N {
-        N::load(self.expander.inputs[index as usize])
-    }
-    #[inline(always)]
-    fn time(&mut self) -> N {
-        self.t
-    }
-    #[inline(always)]
-    fn motion(&mut self, coordinate: u32, is_rate: bool) -> N {
-        let place = coordinate as usize * self.expander.width + self.m;
-        N::load(if is_rate {
-            self.expander.rates[place]
-        } else {
-            self.expander.motion[place]
-        })
-    }
-    #[inline(always)]
-    fn first(&mut self, row: RowId) -> N {
-        self.read(row, 0)
-    }
-    #[inline(always)]
-    fn newest(&mut self, row: RowId) -> N {
-        self.read(row, self.m)
-    }
-    #[inline(always)]
-    fn before(&mut self, row: RowId) -> N {
-        self.read(row, self.m - 1)
-    }
-    #[inline(always)]
-    fn weighted(&mut self, row: RowId) -> N {
-        match self.expander.weighted_places[row.index()] {
-            // For rows whose own order is higher, this coefficient is final.
-            Some(place) if self.expander.series.lead(row) > self.lead() => {
-                N::load(self.expander.weighted[place + self.m])
-            }
-            _ => N::load(self.expander.newest[row.index()]),
-        }
-    }
-    #[inline(always)]
-    fn derivative(&mut self, row: RowId) -> N {
-        let m = self.m + 1;
-        self.expander.number::<N>(m) * self.read(row, m)
-    }
-    #[inline(always)]
-    fn derivative_factors(&mut self, row: RowId) -> [N; 2] {
-        let m = self.m + 1;
-        [self.expander.number::<N>(m), self.read(row, m)]
-    }
-    #[inline(always)]
-    fn second_derivative(&mut self, row: RowId) -> N {
-        let m = self.m + 1;
-        self.expander.number::<N>(m) * N::load(self.expander.newest[row.index()])
-    }
-    #[inline(always)]
-    fn second_factors(&mut self, row: RowId) -> [N; 2] {
-        let m = self.m + 1;
-        let order = self.expander.number::<N>(m);
-        if self.expander.series.is_integral(row) {
-            [order, N::load(self.expander.newest[row.index()])]
-        } else {
-            [
-                order * self.expander.number::<N>(m + 1),
-                self.read(row, m + 1),
-            ]
-        }
-    }
-    #[inline(always)]
-    fn convolution(&mut self, _row: RowId, number: usize) -> N {
-        N::load(self.expander.sums_of_row[number])
-    }
-    #[inline(always)]
-    fn sin_cos(&mut self, row: RowId) -> [N; 2] {
-        let (sin, cos) = self.first(row).sin_cos();
-        if !self.expander.series.exact[row.index()] {
-            return [sin, cos];
-        }
-        let low = N::load(self.expander.low[row.index()]);
-        [low.mul_add(cos, sin), low.neg_mul_add(sin, cos)]
-    }
-    #[inline(always)]
-    fn call(&mut self, call: Call, a: N, b: N) -> N {
-        match call {
-            Call::Sqrt => a.sqrt(),
-            Call::Sin => a.sin(),
-            Call::Cos => a.cos(),
-            Call::Atan2 | Call::Min | Call::Max | Call::Pow => binary(call, a, b),
-            _ => unary(call, a),
-        }
-    }
-    #[inline(always)]
-    fn exact_sum(&mut self, row: RowId, terms: &[(Option<RowId>, RowId)]) -> N {
-        let (mut sum, mut low) = (N::ZERO, N::ZERO);
-        for (coefficient, of) in terms {
-            let x = self.first(*of);
-            let x_low = if self.expander.series.exact[of.index()] {
-                N::load(self.expander.low[of.index()])
-            } else {
-                N::ZERO
-            };
-            let (term, term_low) = match coefficient {
-                None => (x, x_low),
-                Some(c) => {
-                    let c = self.first(*c);
-                    (c * x, c.mul_add(x_low, c.product_error(x)))
-                }
-            };
-            low = low + (term_low + sum.sum_error(term));
-            sum = sum + term;
-        }
-        self.expander.low[row.index()] = low.store();
-        sum
-    }
-    #[inline(always)]
-    fn over_order(&mut self) -> N {
-        self.expander.reciprocal(self.m)
-    }
-
-    #[inline(always)]
-    fn add(&mut self, a: N, b: N) -> N {
-        a + b
-    }
-    #[inline(always)]
-    fn subtract(&mut self, a: N, b: N) -> N {
-        a - b
-    }
-    #[inline(always)]
-    fn multiply(&mut self, a: N, b: N) -> N {
-        a * b
-    }
-    #[inline(always)]
-    fn divide(&mut self, a: N, b: N) -> N {
-        a / b
-    }
-    #[inline(always)]
-    fn negate(&mut self, a: N) -> N {
-        -a
-    }
-    #[inline(always)]
-    fn multiply_add(&mut self, a: N, b: N, c: N) -> N {
-        a.mul_add(b, c)
-    }
-}
-
-/// The sum of a [`Convolution`](super::Convolution) at order `m`, in the order given by [`TermOrder`].
-#[inline(always)]
-fn convolve<T: Copy, N: Scalar<Stored = T>>(a: &[T], b: &[T], m: usize, along: TermOrder) -> N {
-    let x = |list: &[T], j: usize| N::load(list[j]);
-    match along {
-        TermOrder::Position if m < 2 => N::ZERO,
-        TermOrder::Position if m == 2 => x(a, 1) * x(b, 1),
-        TermOrder::Position => {
-            let sum = dot::<T, N>(&a[2..m - 1], &b[2..m - 1]);
-            let sum = x(a, m - 1).mul_add(x(b, 1), sum);
-            x(a, 1).mul_add(x(b, m - 1), sum)
-        }
-        TermOrder::Force => {
-            let sum = dot::<T, N>(&a[..m - 1], &b[2..m + 1]);
-            x(a, m - 1).mul_add(x(b, 1), sum)
-        }
-        TermOrder::Other => dot(&a[1..m], &b[1..m]),
-    }
-}
-
-/// `Σ aⱼ b₍n−1−j₎`, in the order of [`convolve_all`](steps::convolve_all).
-#[inline(always)]
-fn dot<T: Copy, N: Scalar<Stored = T>>(a: &[T], b: &[T]) -> N {
-    let count = a.len().min(b.len());
-    let half = count / 2;
-    let (mut down, mut up) = (N::ZERO, N::ZERO);
-    if count % 2 == 1 {
-        down = N::load(a[half]).mul_add(N::load(b[half]), down);
-    }
-    let below = a[..half].iter().zip(&b[..half]).rev();
-    let above = a[count - half..count].iter().zip(&b[count - half..count]);
-    for ((&low_a, &low_b), (&high_a, &high_b)) in below.zip(above) {
-        down = N::load(low_a).mul_add(N::load(high_b), down);
-        up = N::load(high_a).mul_add(N::load(low_b), up);
-    }
-    down + up
 }

@@ -179,61 +179,12 @@ impl Code {
                     format!("{}[{at}].{}", text(of), usize::from(*is_cos))
                 }
                 Op::Factored(entries, held, members) => {
-                    let entries = self.kept(entries, 0);
-                    writer.expression(&format!("let mut {name} = "), &entries, ";");
-                    let count = members.len();
-                    let members = Layout::array(members.iter().map(u32::to_string));
-                    writer.expression(&format!("let members{id} = "), &members, ";");
-                    let call = Layout::List(
-                        format!("{runtime}::series::factor::<{number}>("),
-                        [count.to_string(), held.to_string(), format!("&mut {name}")]
-                            .map(Layout::Atom)
-                            .to_vec(),
-                        ")",
-                    );
-                    writer.expression("let factored = ", &call, ";");
-                    writer.open("if let Err(vanished) = factored {");
-                    let error = Layout::List(
-                        format!("{runtime}::series::singular("),
-                        [
-                            "vanished".to_owned(),
-                            format!("&members{id}"),
-                            coordinates.to_string(),
-                        ]
-                        .map(Layout::Atom)
-                        .to_vec(),
-                        ")",
-                    );
-                    writer.expression("let singular = ", &error, ";");
-                    writer.line("return Err(singular);");
-                    writer.close("}");
+                    let matrix = (entries.as_slice(), *held, members.as_slice());
+                    self.write_factored(writer, id, matrix, (runtime, coordinates));
                     continue;
                 }
                 Op::Solved(matrix, right) => {
-                    let matrix = text(matrix);
-                    if is_inverse(right.len()) {
-                        let count = right.len();
-                        let call = Layout::List(
-                            format!("{runtime}::series::solved::<{number}, {count}>("),
-                            vec![
-                                Layout::Atom(format!("&{matrix}")),
-                                Layout::array(list(right)),
-                            ],
-                            ")",
-                        );
-                        writer.expression(&format!("let {name} = "), &call, ";");
-                        continue;
-                    }
-                    let sides = self.kept(right, 0);
-                    writer.expression(&format!("let mut {name} = "), &sides, ";");
-                    writer.line(format!("let mut scratch{id} = {name};"));
-                    writer.line(format!(
-                        "let (x, scratch) = (&mut {name}, &mut scratch{id});"
-                    ));
-                    let count = right.len();
-                    writer.line(format!(
-                        "{runtime}::series::solve::<{number}>({count}, &{matrix}, x, scratch);"
-                    ));
+                    self.write_solved(writer, id, *matrix, right, runtime);
                     continue;
                 }
                 Op::Element(of, at) => format!("n({}[{at}])", text(of)),
@@ -242,12 +193,9 @@ impl Code {
                     let arguments = Layout::array(list(all));
                     writer.expression(&format!("let factors{id} = "), &arguments, ";");
                     let count = all.len();
-                    let call = Layout::List(
+                    let call = call(
                         format!("{runtime}::series::apply::<{number}, {length}, {count}>("),
-                        ["&forces".to_owned(), format!("&factors{id}")]
-                            .map(Layout::Atom)
-                            .to_vec(),
-                        ")",
+                        ["&forces".to_owned(), format!("&factors{id}")],
                     );
                     writer.expression(&format!("let {name} = "), &call, ";");
                     continue;
@@ -256,4 +204,73 @@ impl Code {
             writer.expression(&format!("let {name} = "), &Layout::Atom(value), ";");
         }
     }
+
+    /// Writes the factors of a matrix with these `entries`, of which the last rows are those of `held` constraints, and the error of a pivot
+    /// that vanishes, with the number of the member.
+    fn write_factored(
+        &self,
+        writer: &mut Writer,
+        id: usize,
+        (entries, held, members): (&[Operand], usize, &[u32]),
+        (runtime, coordinates): (&str, usize),
+    ) {
+        let (name, number) = (format!("{}{id}", self.letter), &self.number);
+        writer.expression(&format!("let mut {name} = "), &self.kept(entries, 0), ";");
+        let count = members.len();
+        let members = Layout::array(members.iter().map(u32::to_string));
+        writer.expression(&format!("let members{id} = "), &members, ";");
+        let factor = call(
+            format!("{runtime}::series::factor::<{number}>("),
+            [count.to_string(), held.to_string(), format!("&mut {name}")],
+        );
+        writer.expression("let factored = ", &factor, ";");
+        writer.open("if let Err(vanished) = factored {");
+        let error = call(
+            format!("{runtime}::series::singular("),
+            [
+                "vanished".to_owned(),
+                format!("&members{id}"),
+                coordinates.to_string(),
+            ],
+        );
+        writer.expression("let singular = ", &error, ";");
+        writer.line("return Err(singular);");
+        writer.close("}");
+    }
+
+    /// Writes the solution of a factored system with this right-hand side.
+    fn write_solved(
+        &self,
+        writer: &mut Writer,
+        id: usize,
+        matrix: Operand,
+        right: &[Operand],
+        runtime: &str,
+    ) {
+        let (name, number) = (format!("{}{id}", self.letter), &self.number);
+        let (matrix, count) = (self.text(matrix), right.len());
+        if is_inverse(count) {
+            let sides = right.iter().map(|x| self.text(*x));
+            let call = Layout::List(
+                format!("{runtime}::series::solved::<{number}, {count}>("),
+                vec![Layout::Atom(format!("&{matrix}")), Layout::array(sides)],
+                ")",
+            );
+            writer.expression(&format!("let {name} = "), &call, ";");
+            return;
+        }
+        writer.expression(&format!("let mut {name} = "), &self.kept(right, 0), ";");
+        writer.line(format!("let mut scratch{id} = {name};"));
+        writer.line(format!(
+            "let (x, scratch) = (&mut {name}, &mut scratch{id});"
+        ));
+        writer.line(format!(
+            "{runtime}::series::solve::<{number}>({count}, &{matrix}, x, scratch);"
+        ));
+    }
+}
+
+/// The call of a function, which begins with its name and a bracket.
+fn call<const N: usize>(function: String, arguments: [String; N]) -> Layout {
+    Layout::List(function, arguments.map(Layout::Atom).to_vec(), ")")
 }

@@ -1,9 +1,9 @@
-//! Tests of what is written in coordinates against the motion along the guides.
+//! Tests that elements written in coordinates act along the guides alone.
 
 use lagrangian_spec::diagnostic::{Code, Diagnostic};
 use lagrangian_spec::identity;
-use lagrangian_spec::model::Model;
 use lagrangian_spec::model::element::{Contribution, Element, Energy, Load};
+use lagrangian_spec::model::{Contact, ContactGeometry, Model};
 use lagrangian_spec::source::Span;
 use lagrangian_symbolic::{Expr, Node, Symbol};
 
@@ -56,6 +56,9 @@ impl<'d> CoordinateTests<'_, '_, 'd> {
         }
         for (element, one) in relaxed.contributions() {
             self.test_element(element, one, &mut test);
+        }
+        for contact in &relaxed.contacts {
+            self.test_contact(contact, &mut test);
         }
         found
     }
@@ -115,6 +118,19 @@ impl<'d> CoordinateTests<'_, '_, 'd> {
             | Contribution::StateEnergy(_)
             | Contribution::PowerLoss(_)
             | Contribution::Sliding(_) => {}
+        }
+    }
+
+    /// Tests a contact that is given by expressions: its normal force acts like that of a stretch, and its friction like one between rates.
+    fn test_contact(&self, contact: &Contact<'d>, test: &mut impl FnMut(&dyn Fn() -> TestResult)) {
+        let ContactGeometry::Expressions { gap, slip, .. } = &contact.geometry else {
+            return;
+        };
+        let Contact { name, span, .. } = contact;
+        test(&|| self.stretch(*gap, &format!("the gap of the contact `{name}`"), *span));
+        if contact.friction.is_some() {
+            let subject = format!("the slip of the contact `{name}`");
+            test(&|| self.force_of_expression((*slip, &self.relaxed.x.v), &subject, *span));
         }
     }
 
