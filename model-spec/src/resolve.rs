@@ -85,6 +85,7 @@ use crate::source::{Files, Sources, Span};
 use crate::syntax::{self, Item, Quantity, SectionKind, Spec};
 
 use element::Row;
+use expression::HiddenUnit;
 use frames::PoseKey;
 use layers::Layers;
 use names::{Declaration, Group, Member, Namespace};
@@ -176,6 +177,8 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     report: &'r mut Report,
     /// What was reported where, since all members of a family make the same error.
     reported: FxHashSet<(Span, Code)>,
+    /// Quantities after a number whose names are those of units too: the `m` in `2*m` if `m` is a mass.
+    hidden_units: Vec<HiddenUnit<'a>>,
     /// Diagnostics of wrong units while a published formula is read; these are not errors of the spec.
     remarks: Option<Vec<Diagnostic>>,
     /// Whether declarations are missing, so that an unknown name need not be reported.
@@ -273,6 +276,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             derived: FxHashSet::default(),
             report,
             reported: FxHashSet::default(),
+            hidden_units: Vec::new(),
             remarks: None,
             incomplete: layers.incomplete || layers.specs.iter().any(|spec| spec.incomplete),
             layer_count: layers.specs.len(),

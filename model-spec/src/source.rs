@@ -43,6 +43,11 @@ impl Span {
         }
     }
 
+    /// Whether `other` lies within this stretch.
+    pub fn encloses(self, other: Span) -> bool {
+        self.source == other.source && self.start <= other.start && other.end <= self.end
+    }
+
     /// The empty stretch right after this one, the place of something missing.
     pub fn after(self) -> Span {
         Span {

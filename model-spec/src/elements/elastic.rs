@@ -2,7 +2,6 @@
 
 use lagrangian_symbolic::Expr;
 
-use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
 use crate::model::circles::terms;
 use crate::model::element::{Deformation, Drawing, Shape, Site};
@@ -99,10 +98,9 @@ impl Elastic {
             } else {
                 expected
             };
-            let message = format!("expected {}, found {}", unit_text(expected), unit_text(c));
-            let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
+            let diagnostic = resolver.unit_mismatch(c, expected, span, &reason);
             let note = format!("the stretch is in {}", unit_text(x));
-            resolver.push(diagnostic.help(reason).note(stretch.span, note));
+            resolver.push(diagnostic.note(stretch.span, note));
         }
     }
 }

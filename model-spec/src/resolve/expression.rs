@@ -18,7 +18,7 @@ use crate::model::{PoseId, Space};
 use crate::source::Span;
 use crate::syntax::{Expression, ExpressionKind, Reference, Term};
 use crate::unit::Unit;
-pub(crate) use units::unit_text;
+pub(crate) use units::{HiddenUnit, unit_text};
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// The value of an expression.

@@ -6,7 +6,7 @@ use crate::model::stage;
 use crate::resolve::Resolver;
 use crate::resolve::value::{Scalar, Scope, Value, Vector};
 use crate::source::Span;
-use crate::syntax::{Expression, Factor};
+use crate::syntax::{Expression, Factor, Ident};
 use crate::unit::{Measure, Unit};
 use lagrangian_symbolic::Expr;
 
@@ -25,7 +25,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         // Whether there are only numbers and units so far, so that a unit may follow.
         let mut measured = true;
         // The name that ended them, if a unit has the same name.
-        let mut hides = None;
+        let mut hides: Option<&Ident> = None;
         for (place, factor) in factors.iter().enumerate() {
             let measure = if measured && place > 0 {
                 self.unit_factor(&factor.value, scope)
@@ -37,14 +37,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 && self.unit_factor(&factor.value, scope).is_some()
             {
                 if complete {
-                    self.refuse_unit_after_name(name, declared);
+                    self.refuse_unit_after_name(name, &declared.text);
                 }
                 complete = false;
                 continue;
             }
             if measured && place > 0 && measure.is_none() {
-                let name = first_name(&factor.value).map(|name| name.text.as_str());
-                hides = name.filter(|name| Measure::named(name).is_some());
+                let name = first_name(&factor.value);
+                hides = name.filter(|name| Measure::named(&name.text).is_some());
             }
             let value = match &measure {
                 Some(measure) => Value::Scalar(Scalar {
@@ -54,6 +54,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 }),
                 None => self.value(&factor.value, scope),
             };
+            if let (true, Some(name), Some(unit)) = (measured, hides, value.unit()) {
+                self.note_hidden_unit(factor, name, unit);
+            }
             measured &= measure.is_some() || value.unit().is_none();
             if measure.is_none() {
                 product.count_pi(&value, factor.divides);

@@ -10,17 +10,83 @@ use crate::syntax::{Expression, ExpressionKind, Factor, Ident};
 use crate::unit::{Measure, Unit};
 use lagrangian_symbolic::{Expr, Node};
 
+/// A quantity after a number whose name is that of a unit too.
+pub(crate) struct HiddenUnit<'a> {
+    name: &'a Ident,
+    /// By what the unit of the product changes if the name is that of the unit.
+    instead: Unit,
+}
+
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// Reports a unit other than the one required; a bare number takes any unit.
     pub fn require_unit(&mut self, found: Option<Unit>, expected: Unit, span: Span, reason: &str) {
         if let Some(found) = found.filter(|found| !found.fits(expected)) {
-            let message = format!(
-                "expected {}, found {}",
-                unit_text(expected),
-                unit_text(found)
-            );
-            let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
-            self.push(diagnostic.help(unit_factor_help(reason, found, expected)));
+            let diagnostic = self.unit_mismatch(found, expected, span, reason);
+            self.push(diagnostic);
+        }
+    }
+
+    /// The error that an expression is in another unit than its place requires, for the reason given.
+    pub fn unit_mismatch(
+        &self,
+        found: Unit,
+        expected: Unit,
+        span: Span,
+        reason: &str,
+    ) -> Diagnostic {
+        let message = format!(
+            "expected {}, found {}",
+            unit_text(expected),
+            unit_text(found)
+        );
+        let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
+        let diagnostic = diagnostic.help(unit_factor_help(reason, found, expected));
+        self.explain_hidden_unit(diagnostic, found, expected, span)
+    }
+
+    /// Adds to an error about units that a quantity in an expression of the unit `found` has the name of a unit, if the expression would
+    /// be in `expected` if that unit was meant.
+    fn explain_hidden_unit(
+        &self,
+        diagnostic: Diagnostic,
+        found: Unit,
+        expected: Unit,
+        span: Span,
+    ) -> Diagnostic {
+        let would_fit = |hidden: &&HiddenUnit<'_>| {
+            span.encloses(hidden.name.span) && found.times(hidden.instead).fits(expected)
+        };
+        let hidden = self.hidden_units.iter().find(would_fit);
+        let declared = hidden.and_then(|hidden| {
+            let group = self.find_group(Namespace::Values, &hidden.name.text)?;
+            let first = *self.groups[group].declarations.first()?;
+            Some((&hidden.name.text, self.declarations[first].name.span))
+        });
+        let Some((name, declared)) = declared else {
+            return diagnostic;
+        };
+        let hint = format!(
+            "`{name}` is declared in this machine, and therefore is not the unit: write only the number, in SI units"
+        );
+        let help = match &diagnostic.help {
+            Some(help) => format!("{help}; {hint}"),
+            None => hint,
+        };
+        let note = format!("this is `{name}`");
+        diagnostic.help(help).note(declared, note)
+    }
+
+    /// Remembers that a factor of a product, a quantity in `unit`, hides the unit `name`.
+    pub(super) fn note_hidden_unit(&mut self, factor: &'a Factor, name: &'a Ident, unit: Unit) {
+        let meant = unit_of(&factor.value, &|_| true);
+        if let Some(meant) = meant {
+            let instead = meant.unit.over(unit);
+            let instead = if factor.divides {
+                Unit::ONE.over(instead)
+            } else {
+                instead
+            };
+            self.hidden_units.push(HiddenUnit { name, instead });
         }
     }
 
@@ -48,9 +114,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let &(unit, _, example) = hinted.or_else(most)?;
         for &(other, span) in &parts {
             if !other.fits(unit) {
-                let message = format!("expected {}, found {}", unit_text(unit), unit_text(other));
-                let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
-                let diagnostic = diagnostic.help(unit_factor_help(reason, other, unit));
+                let diagnostic = self.unit_mismatch(other, unit, span, reason);
+                let diagnostic = self.explain_hidden_unit(diagnostic, unit, other, example);
                 self.push(diagnostic.note(example, format!("this is in {}", unit_text(unit))));
             }
         }
