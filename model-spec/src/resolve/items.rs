@@ -76,6 +76,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             "the expected unit is that of the declaration",
         );
         self.refuse_hidden_unit(value, scalar.unit, unit);
+        self.refuse_varying_number(&scalar, unit, value.span);
         if scalar.unit.is_none() {
             self.warn_about_degrees(&scalar, unit, value.span);
         } else if !measure.is_si() {

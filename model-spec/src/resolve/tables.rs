@@ -359,6 +359,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         if let Some((measure, _)) = &first.unit {
             let why = format!("`{}` of `{path}` is in this unit", first.name);
             self.require_unit(x.unit, measure.unit, argument.span, &why);
+            self.refuse_varying_number(&x, measure.unit, argument.span);
             // A bare number is in the unit of the table.
             if x.unit.is_some() && !measure.is_si() {
                 at = measure.of_si(self.dag) * at;

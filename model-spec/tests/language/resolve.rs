@@ -1171,6 +1171,36 @@ fn a_number_with_a_unit_is_converted_exactly() {
     }
 }
 
+/// `acos` and the like are angles also of bare numbers and of vectors of bare numbers: converted where degrees are declared.
+#[test]
+fn an_inverse_function_is_an_angle_in_rad() {
+    let text = "machine Test in plane {
+        coordinates { x: m, phi: rad }
+        frames { f = ground.turn(phi) }
+        bodies { cart { mass: 1, at: (x, 0) } }
+        define {
+            a = acos(dot(f.vector(0, 1), (0, 1))), b = atan2(dot(f.vector(0, 1), (0, 1)), 2), c = asin(1/3), d = atan(2),
+        }
+        outputs {
+            a_deg: deg = a, b_deg: deg = b, c_deg: deg = c, d_deg: deg = d,
+            a_rad: rad = a, b_rad: rad = b, c_rad: rad = c, d_rad: rad = d,
+        }
+    }";
+    let (dag, mut sources) = (Dag::new(), Sources::new());
+    let (model, report) = resolve(&dag, text, &[], &mut sources);
+    let model = model.unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
+    let (degrees, radians) = model.outputs.split_at(4);
+    for (in_degrees, in_radians) in degrees.iter().zip(radians) {
+        let half_turn = dag.int(180);
+        assert_eq!(
+            in_degrees.value * dag.pi(),
+            half_turn * in_radians.value,
+            "{}",
+            in_degrees.name
+        );
+    }
+}
+
 #[test]
 fn a_number_that_would_be_a_quantity_if_its_name_were_a_unit_is_refused() {
     let refused = |parts: &str| {

@@ -109,6 +109,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 }
                 x.unit.map(|_| Unit::ONE)
             }
+            // An angle, also that of a bare number, so that it is converted where degrees are declared.
+            Function::Asin | Function::Acos | Function::Atan => {
+                self.require_dimensionless(x.unit, "a pure number", argument.span);
+                Some(Unit::RADIAN)
+            }
             _ => {
                 self.require_dimensionless(x.unit, "a pure number", argument.span);
                 x.unit.map(|_| Unit::ONE)
@@ -149,7 +154,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let parts = [(x.is_bare(), first.span), (y.is_bare(), second.span)];
         self.refuse_bare_numbers(parts.into_iter(), common);
         let unit = match function {
-            Function::Atan2 => common.map(|_| Unit::RADIAN),
+            Function::Atan2 => Some(Unit::RADIAN),
             _ => common,
         };
         let number = x.number.zip(y.number).map(|(x, y)| match function {

@@ -1,6 +1,7 @@
 //! Units of expressions: what they must be, and what is said where they are not.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::model::stage;
 use crate::resolve::Resolver;
 use crate::resolve::items::equals_unit;
 use crate::resolve::names::{Namespace, with_help};
@@ -143,6 +144,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             };
             self.push(diagnostic.help(help));
         }
+    }
+
+    /// Refuses a value without a unit that varies, such as a component of a vector of bare numbers in a frame that turns, where a unit
+    /// other than that of the SI is declared. Only of a constant can it be said that somebody has written it in the declared unit.
+    pub fn refuse_varying_number(&mut self, value: &Scalar<'d>, declared: Unit, span: Span) {
+        let varies = value.is_bare() && value.expr.stage() != stage::CONSTANT;
+        self.refuse_bare_numbers([(varies, span)].into_iter(), Some(declared));
     }
 
     /// Warns about a number that looks like degrees where radians are expected, or vice versa.
