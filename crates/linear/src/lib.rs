@@ -13,16 +13,13 @@ pub mod charts;
 pub mod model;
 pub mod motion;
 pub mod orbit;
-pub mod poles;
-mod precise;
-mod rank;
 pub mod reduced;
 pub mod response;
 pub mod search;
-pub mod spectrum;
 pub mod starts;
 pub mod steady;
 pub mod varied;
 pub mod zeros;
 
+pub use lagrangian_eigen::{poles, spectrum};
 pub use nalgebra::{Complex, DMatrix, DVector};

@@ -11,11 +11,11 @@
 //! Coordinates that only record how far the machine has moved, such as the place on a table around which a coin circles,
 //! are an exception: their coefficients turn with the motion. Nothing depends on them, and they are left out.
 
+use lagrangian_eigen::spectrum::{self, Linear, Mode, Modes};
 use nalgebra::{Complex, DMatrix};
 
 use crate::reduced::{Choice, Fault, Linearized, Reduced, ReducedState, divided};
 use crate::search::{Stationary, without_roundoff};
-use crate::spectrum::{self, Linear, Mode, Modes};
 
 /// By how much moving coordinates are shifted, in rad, m or relative to the coordinate, to test whether anything
 /// depends on them.

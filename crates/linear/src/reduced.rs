@@ -22,12 +22,12 @@ mod projection;
 
 use lagrangian::System;
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
+use lagrangian_eigen::precise;
 use lagrangian_program::{Arguments, Interpreter, Role, Shape};
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
 use lagrangian_units::state_of;
 use nalgebra::{DMatrix, DVector};
 
-use crate::precise;
 pub use choice::Choice;
 pub use contacts::ContactFault;
 pub use projection::largest_relative_change;

@@ -18,10 +18,10 @@
 //! Between two branches of equilibria |r| may have a positive minimum, about which steps oscillate. From there the machine is
 //! moved along its accelerations, as if it fell, and Newton's method starts again.
 
+use lagrangian_eigen::rank::{self, Direction};
 use lagrangian_scalar::DoubleDouble;
 use nalgebra::{DMatrix, DVector};
 
-use crate::rank::{self, Direction};
 use crate::reduced::{Choice, Fault, Linearized, Reduced, ReducedState, largest_relative_change};
 
 /// The most steps; Newton's method takes about five, and a few more for each radian of displacement.

@@ -11,11 +11,11 @@
 //! Van Dooren, *Computation of zeros of linear multivariable systems*, Automatica 18 (1982) 415–430); the zeros are the eigenvalues
 //! of `A − B D⁻¹ C` of the reduced model. If the model is controllable and observable they are its transmission zeros.
 
+use lagrangian_eigen::poles::poles;
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix};
 
 use crate::model::Model;
-use crate::poles::poles;
 
 /// A singular value counts as nonzero if it exceeds this fraction of the size of its scaled matrix, times the dimension.
 const RANK: f64 = 256.0 * f64::EPSILON;

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::passage::Passage;
 use super::{CLOSED, MOST_ROUNDS, Multiplier, NoOrbit, Search};
 use crate::chart::Chart;
-use crate::poles::poles;
 use lagrangian::{Machine, System};
+use lagrangian_eigen::poles::poles;
 use lagrangian_units::state_of;
 use nalgebra::{Complex, DMatrix, DVector};
 
