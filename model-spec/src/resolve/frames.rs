@@ -482,13 +482,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 return None;
             }
             (space, arguments) => {
-                let takes = match space {
-                    Space::Plane => "an angle",
-                    Space::Space => "an axis and an angle, or four coordinates",
+                let (takes, help) = match space {
+                    Space::Plane => ("an angle", "write `turn(angle)`"),
+                    Space::Space => (
+                        "an axis and an angle, or four coordinates",
+                        "one rotation follows another: `turn(z, psi).turn(x, theta)`",
+                    ),
                 };
                 let count = arguments.len();
                 let message = format!("`.turn` takes {takes}, found {count} arguments");
-                self.error(Code::WrongArguments, link.span, message);
+                let diagnostic = Diagnostic::new(Code::WrongArguments, link.span, message);
+                self.push(diagnostic.help(help));
                 return None;
             }
         };
