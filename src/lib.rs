@@ -35,6 +35,7 @@ mod inputs;
 mod interpolant;
 mod lanes;
 mod linearize;
+mod machine;
 mod math;
 pub mod methods;
 mod quantity;
@@ -114,6 +115,7 @@ pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw, InputLawIn}
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
 pub use linearize::{Differentiate, Linearize};
+pub use machine::{Coordinates, Inputs, Machine, Outputs};
 pub use methods::{FIXED_STEP_METHODS, METHODS, MOREAU, Method, RADAU_OF_HIGH_ORDER, TAYLOR};
 pub use piece::{NoPiece, Piece};
 pub use quantity::{Assumption, Constraint, Quantity, State};
@@ -121,7 +123,7 @@ pub use singular::{Pivot, Singular};
 pub use step_error::StepError;
 pub use step_number::{Real, StepNumber};
 pub use stepper::{ControlledStepper, Stepper, StepperBuilder};
-pub use system::{Coordinates, Inputs, MOST_CONTACTS, Machine, Outputs, Staged, System};
+pub use system::{MOST_CONTACTS, Staged, System};
 pub use system_in::{MachineIn, SystemIn};
 pub use tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 pub use unilateral::{

@@ -4,7 +4,8 @@ use lagrangian::ContactEventKind;
 use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_spec::model::{Contact, Model};
 
-use super::{MOST_INSTANTS, PlanError, VariedQuantity, unit_of};
+use super::varied::{VariedQuantity, unit_of};
+use super::{MOST_INSTANTS, PlanError};
 use crate::design;
 use crate::plan::{Function, Plan};
 use crate::signals;

@@ -5,7 +5,8 @@ use lagrangian::{Machine, System};
 use lagrangian_spec::model::Model;
 use lagrangian_spec::unit::{rate_name, rate_unit};
 
-use super::{ReductionSource, unit_of};
+use super::ReductionSource;
+use super::varied::unit_of;
 use crate::plan::{AUTO, Function, Plan, Reduction};
 use crate::reduce::{Formula, Tracker};
 use crate::rows::{Column, ColumnType};
