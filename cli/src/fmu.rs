@@ -17,6 +17,7 @@ use std::path::Path;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, Simulation, System, Warning};
+use lagrangian_emit::names::word;
 use lagrangian_languages::c::uniform::{self, Derivatives};
 use lagrangian_mechanics::{Compiled, Unproved};
 use lagrangian_program::Program;
@@ -31,7 +32,7 @@ use crate::output::{self, Destination, UNIT, keep_apart, keep_document_apart};
 use crate::progress;
 use crate::reading::{self, Reading};
 use archive::Entry;
-use variables::Variables;
+use variables::{Variables, is_word};
 
 /// A version of the standard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -321,9 +322,7 @@ fn check_sections(program: &Program) -> Result<(), Failure> {
 
 /// Refuses a name that cannot be part of a variable name: the count of an event is `event.NAME`.
 fn check_name(name: &str) -> Result<(), Failure> {
-    let is_word = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
-        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    if is_word {
+    if is_word(name) {
         Ok(())
     } else {
         Err(Failure::Call(format!(
@@ -479,10 +478,7 @@ fn sources(unit: &Unit<'_>, machine: &str) -> Vec<(&'static str, String)> {
 /// The name of a file as a C identifier.
 fn identifier(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let letters = stem
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
-    let letters: String = letters.collect();
+    let letters = word(&stem, |c| c.is_ascii_alphanumeric());
     if letters.starts_with(|c: char| c.is_ascii_digit()) || letters.is_empty() {
         format!("_{letters}")
     } else {

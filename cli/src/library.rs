@@ -16,6 +16,7 @@ use lagrangian::native::text::{
 };
 use lagrangian::scalar::text::{KERNEL, LIB, REAL, SERIES};
 use lagrangian_emit as emit;
+use lagrangian_emit::names::word;
 use lagrangian_linear::starts::dependent_constraint;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{LONGEST_SCHEDULED, Program, Role, Slot};
@@ -406,10 +407,7 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
         "LAGRANGIAN_{}_H",
         emit::rust::module_name(name).to_uppercase()
     );
-    let guard: String = guard
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-        .collect();
+    let guard = word(&guard, |c| c.is_ascii_alphanumeric());
     let list = |slots: &[Slot]| {
         let mut lines = String::new();
         for (i, slot) in slots.iter().enumerate() {

@@ -78,7 +78,7 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let start = start(&machine, &call.search)?;
     let found = find_motion(&machine, start.clone(), &call.search);
     let found = found.map(|reached| (machine, reached));
-    let (machine, Reached { q, wanted, motion }) = other_chart::search(found, || {
+    let (machine, reached) = other_chart::search(found, || {
         let given = (&call.search.start, &call.search.keep);
         let chart = OtherChart::of(&compiled, cartesian, given, &start)?;
         let found = find_motion(&chart.machine, chart.start, &call.search);
@@ -87,11 +87,11 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let system = machine.prepare();
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
-        let result = as_json(&names, &motion);
+        let result = as_json(&names, &reached.motion);
         output::line(format_args!("{result:#}"));
     } else {
         let units: Vec<&str> = system.coordinates().map(|q| q.unit).collect();
-        output::text(&text(&names, &units, &q, &wanted, &motion));
+        output::text(&text(&names, &units, &reached));
     }
     Ok(())
 }

@@ -181,15 +181,19 @@ fn structured(name: &str) -> String {
         Some((base, rest)) => (base, rest.strip_suffix(']')),
         None => (name, Some("1")),
     };
-    let is_word = base.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
-        && base.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let is_count =
         index.is_some_and(|index| !index.is_empty() && index.chars().all(|c| c.is_ascii_digit()));
-    if is_word && is_count || !name.is_ascii() {
+    if is_word(base) && is_count || !name.is_ascii() {
         name.to_owned()
     } else {
         format!("'{name}'")
     }
+}
+
+/// Whether a name consists of the letters a to z, digits and `_`, and begins with no digit.
+pub fn is_word(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
 /// A name that is not taken yet.

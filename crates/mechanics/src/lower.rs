@@ -348,9 +348,11 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         Role::ContactBias => directions.map(|d| d.bias).collect(),
         Role::ContactCoefficients => unilateral.iter().flat_map(|u| u.coefficients).collect(),
         Role::GuideMatrix => (equations.guides.iter())
-            .flat_map(|guide| guide.coefficients())
+            .flat_map(|reaction| reaction.coefficients())
             .collect(),
-        Role::GuideLoads => equations.guides.iter().map(|guide| guide.load).collect(),
+        Role::GuideLoads => (equations.guides.iter())
+            .map(|reaction| reaction.load)
+            .collect(),
         Role::Output(index) => vec![equations.outputs[index]],
         Role::Assumption(index) => vec![model.assumptions[index].excess],
         // These are found by elimination, or are not expressions of the equations.

@@ -5,7 +5,7 @@ use lagrangian_symbolic::{self as symbolic, Rational};
 use super::Emitter;
 use crate::body::{Angle, ArrayElement, Expression as Text, Language, Loops, Precedence, Rounded};
 use crate::layout::{Layout, Writer};
-use crate::names::{Scope, flat};
+use crate::names::{Scope, flat, word};
 use lagrangian_program::{Contracted, EliminationStep, Guard, PackedOperation, Source};
 
 /// The Rust implementation of `Language`.
@@ -183,10 +183,7 @@ impl Language for Rust<'_> {
             .and_then(|rest| rest.strip_suffix(')'))
             .filter(|_| self.in_registers);
         let plain = inner.unwrap_or(angle).trim_start_matches("r#");
-        plain
-            .chars()
-            .map(|c| if c.is_alphanumeric() { c } else { '_' })
-            .collect()
+        word(plain, char::is_alphanumeric)
     }
 
     fn identifier(&self, scope: &mut Scope, name: &str) -> String {
