@@ -101,25 +101,44 @@ pub(super) struct Problem {
     pub units: Vec<f64>,
 }
 
-/// Memory for the search for a solution.
+/// The best forces so far, and by how much they miss a condition.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Workspace {
-    /// The best forces so far, and by how much they miss a condition.
-    best: Vec<f64>,
+struct Best {
+    z: Vec<f64>,
     missed: f64,
-    newton: Newton,
-    interior: Interior,
-    /// The forces that solve a convex problem.
-    start: Vec<f64>,
 }
 
-impl Workspace {
+impl Best {
+    fn begin(&mut self, z: &[f64], missed: f64) {
+        self.z.clear();
+        self.z.extend_from_slice(z);
+        self.missed = missed;
+    }
+
+    /// Takes forces if they miss a condition by less.
+    fn note(&mut self, z: &[f64], missed: f64) {
+        if missed < self.missed {
+            self.missed = missed;
+            self.z.copy_from_slice(z);
+        }
+    }
+
     /// Whether the search is at its end, after a round before which the best forces missed a condition by `known`. Where contacts depend on each other, rounding may
     /// leave more than is good, which no further round changes.
     fn is_done_since(&self, known: f64) -> bool {
         let is_stalled = self.missed <= TOLERABLE && self.missed > LESS * known;
         self.missed <= GOOD || is_stalled
     }
+}
+
+/// Memory for the search for a solution.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Workspace {
+    best: Best,
+    newton: Newton,
+    interior: Interior,
+    /// The forces that solve a convex problem.
+    start: Vec<f64>,
 }
 
 /// Solves the problem: says by how much the forces miss a condition. The search begins with the forces `z`, and writes the solution there.
@@ -132,14 +151,12 @@ pub(super) fn solve(
     if !is_finite(&problem.b) || !is_finite(&problem.matrix) {
         return Err(Unsolved);
     }
-    work.best.clear();
-    work.best.extend_from_slice(z);
-    work.missed = problem.relative_residual(z);
+    work.best.begin(z, problem.relative_residual(z));
     search(problem, z, work);
-    if work.missed <= TOLERABLE {
-        z.copy_from_slice(&work.best);
-        problem.clear_open(z, &work.best);
-        Ok(work.missed)
+    if work.best.missed <= TOLERABLE {
+        z.copy_from_slice(&work.best.z);
+        problem.clear_open(z, &work.best.z);
+        Ok(work.best.missed)
     } else {
         Err(Unsolved)
     }
@@ -149,7 +166,7 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
     // Of several solutions the one that is near: sweeps may leave it.
     if z.iter().any(|z| *z != 0.0) {
         problem.polish(z, (Pace::Bold, FEW_STEPS), work);
-        if work.missed <= GOOD {
+        if work.best.missed <= GOOD {
             return;
         }
     }
@@ -159,7 +176,7 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
             if problem.solve_convex_problems(work) {
                 rounds = ROUNDS_AFTER_CONVEX_PROBLEMS;
             }
-            if work.missed <= TOLERABLE {
+            if work.best.missed <= TOLERABLE {
                 return;
             }
         }
@@ -167,13 +184,13 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
             return;
         }
         // Where some hundred sweeps have found nothing, thousands seldom do.
-        if round == ROUNDS_BEFORE_FRICTION_IS_FOLLOWED && work.missed > TOLERABLE {
+        if round == ROUNDS_BEFORE_FRICTION_IS_FOLLOWED && work.best.missed > TOLERABLE {
             problem.follow_friction(work);
-            if work.missed <= GOOD {
+            if work.best.missed <= GOOD {
                 return;
             }
         }
-        let known = work.missed;
+        let known = work.best.missed;
         for _ in 0..FIRST_SWEEPS << round {
             let moved = problem.sweep(z);
             if moved <= f64::EPSILON {
@@ -182,9 +199,9 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
         }
         problem.polish(z, (Pace::Bold, FEW_STEPS), work);
         let is_done = if round < ROUNDS_BEFORE_CONVEX_PROBLEMS {
-            work.missed <= GOOD
+            work.best.missed <= GOOD
         } else {
-            work.is_done_since(known)
+            work.best.is_done_since(known)
         };
         if is_done {
             return;
@@ -311,13 +328,13 @@ impl Problem {
         let most = MOST_MULTIPLICATIONS / (MULTIPLICATIONS * (self.n() as f64).powi(3));
         let most = most.clamp(FEWEST_CONVEX_PROBLEMS as f64, CONVEX_PROBLEMS as f64) as usize;
         for round in 0..most {
-            let known = work.missed;
+            let known = work.best.missed;
             work.interior.next(&mut z, round == 0);
             self.polish(&z, (Pace::Bold, STEPS), work);
-            if work.missed > GOOD {
+            if work.best.missed > GOOD {
                 self.polish(&z, (Pace::Cautious, STEPS), work);
             }
-            if work.is_done_since(known) {
+            if work.best.is_done_since(known) {
                 break;
             }
         }
@@ -337,22 +354,17 @@ impl Problem {
                     *friction *= part as f64 / FRICTIONS as f64;
                 }
             }
-            own.best.clone_from(&z);
-            own.missed = some.relative_residual(&z);
+            own.best.begin(&z, some.relative_residual(&z));
             some.polish(&z, (Pace::Bold, STEPS), &mut own);
             for _ in 0..SWEEPS_OF_FRICTION {
-                if own.missed <= GOOD || some.sweep(&mut z) <= f64::EPSILON {
+                if own.best.missed <= GOOD || some.sweep(&mut z) <= f64::EPSILON {
                     break;
                 }
             }
             some.polish(&z, (Pace::Bold, STEPS), &mut own);
-            z.copy_from_slice(&own.best);
+            z.copy_from_slice(&own.best.z);
         }
-        let missed = self.relative_residual(&z);
-        if missed < work.missed {
-            work.missed = missed;
-            work.best.copy_from_slice(&z);
-        }
+        work.best.note(&z, self.relative_residual(&z));
     }
 }
 

@@ -5,10 +5,7 @@ mod settling;
 
 pub(super) use settling::project_onto_closed_contacts;
 
-use fading::fading_rate;
-
 use std::boxed::Box;
-use std::vec;
 use std::vec::Vec;
 
 use super::in_series::GROWTH_IN_FLIGHT;
@@ -76,6 +73,39 @@ pub(crate) struct ContactChanges {
     flight: Option<f64>,
 }
 
+/// What an instant of changes is compared with: the state before it.
+struct StateBefore {
+    /// The kinetic energy, in J.
+    energy: f64,
+    /// The side to which each guide presses.
+    sides: Vec<f64>,
+    /// The energy that each contact stores, in J, and whether its layer is loaded.
+    stored: Vec<f64>,
+    loaded: Vec<bool>,
+}
+
+impl StateBefore {
+    fn of<S: System, L: InputLaw<S>>(
+        model: &Model<'_, S, L>,
+        touching: &UnilateralState,
+        now: &Point<S::Vector>,
+    ) -> Self {
+        Self {
+            energy: model.energy(now),
+            sides: touching.sides().to_vec(),
+            stored: stored_by_each(model.system.get(), touching, now),
+            loaded: touching.loaded().collect(),
+        }
+    }
+}
+
+/// Contacts after the impacts of an instant: which touch, which are closed, and the slips of which have stopped.
+struct ContactsMet {
+    touches: Vec<bool>,
+    closed: Vec<bool>,
+    stopped: Vec<bool>,
+}
+
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// The state of the unilateral contacts.
     pub(crate) fn touching(&self) -> &Option<UnilateralState> {
@@ -125,105 +155,66 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         end: f64,
         step: f64,
     ) -> Result<ContactChanges, StepError> {
-        let Self { model, now, .. } = self;
-        let mut changes_at_instant = ContactChanges::default();
-        let energy = |model: &Model<'_, S, L>, now: &Point<S::Vector>| {
-            model.system.kinetic_energy(now.t, &now.q, &now.v)
-        };
-        let (t, energy_before) = (now.t, energy(model, now));
+        let Self {
+            model,
+            now,
+            tolerance,
+            ..
+        } = self;
         let Some(mut touching) = model.touching.clone() else {
-            return Ok(changes_at_instant);
+            return Ok(ContactChanges::default());
         };
-        changes_at_instant.before = touching.modes().to_vec();
-        let sides_before = touching.sides().to_vec();
-        let stored_before = stored_by_each(model.system.get(), &touching, now);
-        let loaded_before: Vec<bool> = touching.loaded().collect();
-        model.set_inputs(t, &now.q, &now.v);
-        let fading = match cause {
-            Cause::Stops(_) | Cause::Unspecified => {
-                let error = fading_rate(&self.tolerance, &now.v);
-                let errors: Vec<f64> = (0..now.v.as_slice().len()).map(error).collect();
-                model.fading_slips(&touching, now, &errors)?
-            }
-            _ => vec![false; touching.modes().len()],
+        let before = StateBefore::of(model, &touching, now);
+        let mut changes = ContactChanges {
+            before: touching.modes().to_vec(),
+            ..ContactChanges::default()
         };
+        model.set_inputs(now.t, &now.q, &now.v);
+        let fading = model.fading_at_change(cause, &touching, now, tolerance)?;
         let cause = model.known_cause(cause, &touching, now, &fading)?;
-        let pairs: Vec<usize> = (0..touching.modes().len())
-            .map(|k| touching.first(k))
-            .collect();
-
-        let touches = meet(
-            model.system.get(),
-            &mut touching,
-            now,
-            &mut changes_at_instant,
-        )?;
-        model.set_inputs(t, &now.q, &now.v);
-        let as_held = changes_at_instant.impacts.is_empty();
-        let stops = |k: usize| cause == Cause::Stops(pairs[k]) || as_held && fading[pairs[k]];
-        let mut closed =
-            touching.persisting(model.system.get(), (t, &now.q, &now.v), &touches, as_held);
-        match cause {
-            Cause::Lifts(k) if touching.is_compliant(k) => closed[k] = false,
-            Cause::Leaves(k) => closed[k] = false,
-            Cause::Presses(k) => closed[k] = true,
-            Cause::Turns(k) => {
-                touching.switch_layer(model.system.get(), (t, &now.q, &now.v), k);
-            }
-            _ => {}
-        }
-        touching.copy_from_carriers(&mut closed);
-        let stopped: Vec<bool> = (0..closed.len()).map(stops).collect();
-        if touching.may_have_paradox() {
-            model.leave_paradox(
-                &touching,
-                now,
-                (cause, &touches, &stopped),
-                (&mut closed, &mut changes_at_instant),
-            )?;
-        }
-        let energy_after = energy(model, now);
-        model.end_bounces(
-            &mut touching,
-            now,
-            (&touches, &mut closed),
-            &mut changes_at_instant,
-        )?;
+        let ContactsMet {
+            touches,
+            mut closed,
+            stopped,
+        } = model.close_what_meets(&mut touching, now, (cause, &fading), &mut changes)?;
+        let energy_after = model.energy(now);
+        model.end_bounces(&mut touching, now, (&touches, &mut closed), &mut changes)?;
         touching.copy_from_carriers(&mut closed);
         let (resting, jammed) = model.settle_closed(
             &mut touching,
             now,
             (cause, &mut closed, stopped),
-            &mut changes_at_instant,
+            &mut changes,
         )?;
-        touching.record_slips(model.system.get(), t, &now.q, &now.v);
-        touching.record_beginning_slips(model.system.get(), (t, &now.q, &now.v), &resting);
-        if !matches!(cause, Cause::Turns(_)) || !changes_at_instant.impacts.is_empty() {
-            touching.load_layers(model.system.get(), t, &now.q, &now.v);
+        let system = model.system.get();
+        touching.record_slips(system, now.t, &now.q, &now.v);
+        touching.record_beginning_slips(system, (now.t, &now.q, &now.v), &resting);
+        if !matches!(cause, Cause::Turns(_)) || !changes.impacts.is_empty() {
+            touching.load_layers(system, now.t, &now.q, &now.v);
         }
-        let turned = touching.loaded().zip(loaded_before).enumerate();
-        changes_at_instant.turned = turned
+        let turned = touching.loaded().zip(before.loaded).enumerate();
+        changes.turned = turned
             .filter(|(_, (is, was))| is != was)
             .map(|(k, (is, _))| (k, is))
             .collect();
-        let stored_after = stored_by_each(model.system.get(), &touching, now);
+        let stored_after = stored_by_each(system, &touching, now);
         let stored_before = if at_start {
             stored_after.clone()
         } else {
-            stored_before
+            before.stored
         };
-        model.constraints = project_onto_closed_contacts(model.system.get(), &touching, now)?;
-        changes_at_instant.after = touching.modes().to_vec();
-        changes_at_instant.switched = touching.switched(&changes_at_instant.before, &sides_before);
+        model.constraints = project_onto_closed_contacts(system, &touching, now)?;
+        changes.after = touching.modes().to_vec();
+        changes.switched = touching.switched(&changes.before, &before.sides);
         model.touching = Some(touching);
 
-        if !changes_at_instant.ended.is_empty() {
-            changes_at_instant.lost_at_end = energy_after + jammed - energy(model, now);
+        if !changes.ended.is_empty() {
+            changes.lost_at_end = energy_after + jammed - model.energy(now);
         }
-        let gained = energy_after + jammed - energy_before;
-        self.book_changes(gained, &changes_at_instant, [&stored_before, &stored_after]);
-        self.begin_again(end, step, changes_at_instant.flight)?;
-        Ok(changes_at_instant)
+        let gained = energy_after + jammed - before.energy;
+        self.book_changes(gained, &changes, [&stored_before, &stored_after]);
+        self.begin_again(end, step, changes.flight)?;
+        Ok(changes)
     }
 
     /// Books the energy that an instant of changes took: what impacts added to the kinetic energy, and what each contact stored before and after.
@@ -333,14 +324,62 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         Ok(Cause::Unspecified)
     }
 
+    /// The kinetic energy, in J.
+    fn energy(&self, now: &Point<S::Vector>) -> f64 {
+        self.system.kinetic_energy(now.t, &now.q, &now.v)
+    }
+
+    /// Lets contacts meet, and finds which are closed then.
+    fn close_what_meets(
+        &mut self,
+        touching: &mut UnilateralState,
+        now: &mut Point<S::Vector>,
+        (cause, fading): (Cause, &[bool]),
+        changes: &mut ContactChanges,
+    ) -> Result<ContactsMet, StepError> {
+        let pairs: Vec<usize> = (0..touching.modes().len())
+            .map(|k| touching.first(k))
+            .collect();
+        let touches = meet(self.system.get(), touching, now, changes)?;
+        self.set_inputs(now.t, &now.q, &now.v);
+        let place = (now.t, &now.q, &now.v);
+        let as_held = changes.impacts.is_empty();
+        let mut closed = touching.persisting(self.system.get(), place, &touches, as_held);
+        match cause {
+            Cause::Lifts(k) if touching.is_compliant(k) => closed[k] = false,
+            Cause::Leaves(k) => closed[k] = false,
+            Cause::Presses(k) => closed[k] = true,
+            Cause::Turns(k) => {
+                touching.switch_layer(self.system.get(), place, k);
+            }
+            _ => {}
+        }
+        touching.copy_from_carriers(&mut closed);
+        let stops = |k: usize| cause == Cause::Stops(pairs[k]) || as_held && fading[pairs[k]];
+        let mut met = ContactsMet {
+            touches,
+            stopped: (0..closed.len()).map(stops).collect(),
+            closed,
+        };
+        if touching.may_have_paradox() {
+            self.leave_paradox(touching, now, (cause, &mut met), changes)?;
+        }
+        Ok(met)
+    }
+
     /// Takes the way out of Painlevé's paradox of a closed contact, if there is one: the contact opens, or has an impact, which changes what is closed.
     fn leave_paradox(
         &mut self,
         touching: &UnilateralState,
         now: &mut Point<S::Vector>,
-        (cause, touches, stopped): (Cause, &[bool], &[bool]),
-        (closed, changes): (&mut Vec<bool>, &mut ContactChanges),
+        (cause, met): (Cause, &mut ContactsMet),
+        changes: &mut ContactChanges,
     ) -> Result<(), StepError> {
+        let ContactsMet {
+            touches,
+            closed,
+            stopped,
+        } = met;
         let t = now.t;
         let mut resting = touching.resting(self.system.get(), (t, &now.q, &now.v), closed);
         for (k, resting) in resting.iter_mut().enumerate() {

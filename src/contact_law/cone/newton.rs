@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use super::{Part, Problem, Workspace, factor_rows};
+use super::{Best, Part, Problem, Workspace, factor_rows};
 use crate::implicit::lu::Lu;
 
 /// Φ that is rounding of a few operations: Newton's method ends.
@@ -31,6 +31,61 @@ pub(super) struct Newton {
     lu: Lu<1>,
 }
 
+impl Newton {
+    fn begin(&mut self, z: &[f64]) {
+        let Self {
+            z: now, next, phi, ..
+        } = self;
+        now.clear();
+        now.extend_from_slice(z);
+        next.clear();
+        next.resize(z.len(), 0.0);
+        phi.clear();
+        phi.resize(z.len(), 0.0);
+    }
+
+    /// Finds the step from Φ and its derivatives at the forces of now; whether there is one.
+    fn find_step(&mut self, problem: &Problem, yielding: f64) -> bool {
+        let Self {
+            z,
+            phi,
+            slopes,
+            by,
+            lu,
+            ..
+        } = self;
+        problem.write_slopes(z, yielding, slopes);
+        by.clear();
+        by.extend_from_slice(phi);
+        if !factor_rows(slopes, z.len(), lu) {
+            return false;
+        }
+        lu.solve([by]);
+        by.iter().all(|x| x.is_finite())
+    }
+
+    /// Takes the whole step, or as much of it as makes Φ smaller than `missed`: Φ after it.
+    fn shorten_step(&mut self, problem: &Problem, missed: f64, best: &mut Best) -> f64 {
+        let Self {
+            z, next, phi, by, ..
+        } = self;
+        let mut factor = 1.0;
+        let mut then = f64::INFINITY;
+        for _ in 0..HALVINGS {
+            for ((next, now), by) in next.iter_mut().zip(&*z).zip(&*by) {
+                *next = now - factor * by;
+            }
+            then = problem.residual(next, phi);
+            best.note(next, then);
+            if then < missed {
+                break;
+            }
+            factor *= 0.5;
+        }
+        then
+    }
+}
+
 /// How Newton's method goes on where a step makes Φ no smaller.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pace {
@@ -57,35 +112,10 @@ impl Problem {
     /// little from where it is, which leaves the forces as they are that change nothing. (D. H. Li, M. Fukushima, L. Qi, N. Yamashita, Comput. Optim. Appl. 28 (2004)
     /// 131–147.)
     pub(super) fn polish(&self, z: &[f64], (pace, steps): (Pace, usize), work: &mut Workspace) {
-        let Workspace {
-            best,
-            missed: least,
-            newton,
-            ..
-        } = work;
-        let Newton {
-            z: now,
-            next,
-            phi,
-            slopes,
-            by,
-            lu,
-        } = newton;
-        let mut note = |z: &[f64], missed: f64| {
-            if missed < *least {
-                *least = missed;
-                best.copy_from_slice(z);
-            }
-        };
-        let n = self.n();
-        now.clear();
-        now.extend_from_slice(z);
-        next.clear();
-        next.resize(n, 0.0);
-        phi.clear();
-        phi.resize(n, 0.0);
-        let mut missed = self.residual(now, phi);
-        note(now, missed);
+        let Workspace { best, newton, .. } = work;
+        newton.begin(z);
+        let mut missed = self.residual(&newton.z, &mut newton.phi);
+        best.note(&newton.z, missed);
         let (mut yielding, mut stalled) = (YIELDING * missed, 0);
         let (most_yielding, most_stalled) = pace.limits();
         for _ in 0..steps {
@@ -93,30 +123,10 @@ impl Problem {
                 return;
             }
             yielding = yielding.clamp(LEAST_YIELDING, most_yielding);
-            self.write_slopes(now, yielding, slopes);
-            by.clear();
-            by.extend_from_slice(phi);
-            if !factor_rows(slopes, n, lu) {
+            if !newton.find_step(self, yielding) {
                 return;
             }
-            lu.solve([by]);
-            if by.iter().any(|x| !x.is_finite()) {
-                return;
-            }
-            // The whole step is taken, or as much of it as makes Φ smaller.
-            let mut factor = 1.0;
-            let mut then = f64::INFINITY;
-            for _ in 0..HALVINGS {
-                for ((next, now), by) in next.iter_mut().zip(&*now).zip(&*by) {
-                    *next = now - factor * by;
-                }
-                then = self.residual(next, phi);
-                note(next, then);
-                if then < missed {
-                    break;
-                }
-                factor *= 0.5;
-            }
+            let then = newton.shorten_step(self, missed, best);
             if !then.is_finite() {
                 return;
             }
@@ -124,7 +134,7 @@ impl Problem {
             stalled = if is_less { 0 } else { stalled + 1 };
             if pace == Pace::Cautious && !is_less && yielding < most_yielding {
                 yielding = MORE_YIELDING * yielding.max(FIRST_YIELDING);
-                self.residual(now, phi);
+                self.residual(&newton.z, &mut newton.phi);
                 continue;
             }
             let of_residual = YIELDING * then;
@@ -133,7 +143,7 @@ impl Problem {
                 Pace::Cautious if is_less => of_residual.min(LESS_YIELDING * yielding),
                 Pace::Cautious => yielding,
             };
-            core::mem::swap(now, next);
+            core::mem::swap(&mut newton.z, &mut newton.next);
             missed = then;
         }
     }

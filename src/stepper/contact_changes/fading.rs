@@ -1,8 +1,10 @@
 //! Slips in two directions that fade: what is left of them are the errors of steps.
 
+use std::vec;
 use std::vec::Vec;
 
 use super::super::{Model, Stepper};
+use super::Cause;
 use super::settling::resting_or_stopped;
 use crate::at::At;
 use crate::balance::Quadratures;
@@ -42,8 +44,26 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 }
 
 impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
+    /// Which slips in two directions fade where contacts change, if the cause may be one of them.
+    pub(super) fn fading_at_change(
+        &self,
+        cause: Cause,
+        touching: &UnilateralState,
+        now: &Point<S::Vector>,
+        tolerance: &Tolerance<S::Vector>,
+    ) -> Result<Vec<bool>, StepError> {
+        match cause {
+            Cause::Stops(_) | Cause::Unspecified => {
+                let error = fading_rate(tolerance, &now.v);
+                let errors: Vec<f64> = (0..now.v.as_slice().len()).map(error).collect();
+                self.fading_slips(touching, now, &errors)
+            }
+            _ => Ok(vec![false; touching.modes().len()]),
+        }
+    }
+
     /// Which slips in two directions fade, those that `errors` of rates may have turned, of contacts that stick if they are at rest.
-    pub(super) fn fading_slips(
+    fn fading_slips(
         &self,
         touching: &UnilateralState,
         now: &Point<S::Vector>,
@@ -81,7 +101,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
 }
 
 /// For each coordinate the rate up to which it may be what the errors of steps have left of none.
-pub(super) fn fading_rate<V: Vector>(tolerance: &Tolerance<V>, v: &V) -> impl Fn(usize) -> f64 {
+fn fading_rate<V: Vector>(tolerance: &Tolerance<V>, v: &V) -> impl Fn(usize) -> f64 {
     let Tolerance { relative, absolute } = tolerance;
     move |i| FADING * (absolute.as_slice()[i] + relative * v.as_slice()[i].abs())
 }
