@@ -26,12 +26,11 @@ use lagrangian::interpreted::{Engine, InterpretedMachine, Signals};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::resolve::Formula as OutputFormula;
 use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::{Dag, Rational};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
-use table::{columns, names, reductions};
+use table::{AskedFormula, asked_formulas, columns, reductions};
 use varied::VariedQuantity;
 
 /// More instants in one run than this are assumed to be a mistake.
@@ -132,42 +131,26 @@ impl Sweep {
             return Err(PlanError::Spec(Box::new((report, sources))));
         };
         let places = check(&plan, &plain)?;
-        let names = names(&plan, &plain);
-        let output_formulas: Vec<OutputFormula<'_>> = names
-            .iter()
-            .map(|(name, source_name, text, unit)| OutputFormula {
-                name,
-                source_name,
-                text,
-                unit: unit.as_deref(),
-            })
-            .collect();
-        let of_plain = sources;
-        let (mut sources, mut report) = (Sources::new(), Report::new());
-        let with = match output_formulas.as_slice() {
-            [] => {
-                sources = of_plain;
-                Some(plain)
-            }
-            asked => model(&plan, &constants, &dag, asked, &mut sources, &mut report),
+        let asked = asked_formulas(&plan, &plain);
+        let asked: Vec<_> = asked.iter().map(AskedFormula::as_output).collect();
+        let mut report = Report::new();
+        let mut with = if asked.is_empty() {
+            Some(plain)
+        } else {
+            sources = Sources::new();
+            model(&plan, &constants, &dag, &asked, &mut sources, &mut report)
         };
-        let mut with = with;
         let cartesian = with.as_mut().and_then(|model| model.cartesian.take());
         let compiled = with.and_then(|model| Compiled::for_runs(model, &mut report));
         let Some(compiled) = compiled else {
             return Err(PlanError::Spec(Box::new((report, sources))));
         };
         let assumptions = places_of_assumptions(&compiled.model, &sources);
-        let formulas = formulas(&compiled.model, &output_formulas)?;
+        let formulas = formulas(&compiled.model, &asked)?;
         let (mut machine, mut method, mut warning) = machine(&plan, &compiled, engine)?;
         set_all(&mut machine, &plan.set).map_err(PlanError::Plan)?;
         let points = ChartedPoints::of(&compiled.model);
         let cartesian = cartesian
-            .filter(|_| {
-                plan.keep
-                    .as_ref()
-                    .is_none_or(|names| points.check_kept(names).is_ok())
-            })
             .and_then(|model| in_cartesian(&plan, &compiled, (*model, points), engine, method));
         check_parameters(&machine, &places)?;
 

@@ -112,7 +112,8 @@ pub(super) fn in_cartesian(
     engine: Engine,
     method: &Method,
 ) -> Option<Cartesian> {
-    if !model.uncharted.is_empty() {
+    let keeps = plan.keep.as_ref();
+    if keeps.is_some_and(|names| points.check_kept(names).is_err()) || !model.uncharted.is_empty() {
         return None;
     }
     let mut report = Report::new();

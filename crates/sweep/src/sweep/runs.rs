@@ -11,10 +11,13 @@ use super::outcome::{Outcome, Recorder, sample};
 use super::varied::VariedQuantity;
 use super::{ReductionSource, Sweep, chosen};
 use crate::charts::{self, Charts};
-use crate::plan::Function;
+use crate::plan::{Function, Plan};
 use crate::reduce::StateCache;
 use crate::rows::Cell;
 use crate::verdict;
+
+/// The motion of a run.
+type Motion = Solution<InterpretedMachine, Signals>;
 
 /// A run before its simulation: its machine with the varied values, its start, and its observers.
 struct PreparedRun {
@@ -169,13 +172,34 @@ impl Sweep {
             charts,
             ..
         } = begun;
-        let (machine, system, charts) = (&*machine, &*system, charts.as_ref());
-        let function = move |output: usize, state: &State<Named>| {
-            let mut u = system.default_inputs();
-            let State { t, q, v } = state;
-            lagrangian::InputLaw::set(&self.signals, system, *t, &q.values, &v.values, &mut u);
-            system.output(output, *t, &q.values, &v.values, &[], &u.values)
-        };
+        let (system, charts) = (&*system, charts.as_ref());
+        let mut simulation = self.with_events(self.settings(machine), system);
+        let records_steps = self
+            .reductions
+            .iter()
+            .any(|made| matches!(made, ReductionSource::Along(_)))
+            || !plan.at.is_empty()
+            || plan.every.is_some();
+        if records_steps || charts.is_some() {
+            // States are shown at instants that are not known before, or only at the end.
+            let is_recorded = plan.has_samples() || !plan.at.is_empty();
+            let marked_every = if is_recorded { 0.0 } else { f64::INFINITY };
+            simulation = simulation.each_step(move |step| {
+                if let Some(charts) = charts {
+                    charts.follow(step, marked_every)?;
+                }
+                recorder.record_step(plan, run, (system, charts), step)
+            });
+        }
+        simulation.stop_if(|_| stop.load(Ordering::Relaxed))
+    }
+
+    /// A simulation with the method, the tolerance, the inputs and the end of the plan.
+    fn settings<'r>(
+        &'r self,
+        machine: &'r InterpretedMachine,
+    ) -> Simulation<'r, InterpretedMachine, Signals> {
+        let plan = &self.plan;
         let simulation = Simulation::new(machine)
             .tolerance(plan.tolerance)
             .until(plan.until)
@@ -199,7 +223,22 @@ impl Sweep {
                 simulation = simulation.keep(name);
             }
         }
-        for (watch, &output) in plan.events.iter().zip(&self.events) {
+        simulation
+    }
+
+    /// Adds the events of the plan, whose formulas `system` evaluates.
+    fn with_events<'r>(
+        &'r self,
+        mut simulation: Simulation<'r, InterpretedMachine, Signals>,
+        system: &'r InterpretedSystem,
+    ) -> Simulation<'r, InterpretedMachine, Signals> {
+        let function = move |output: usize, state: &State<Named>| {
+            let mut u = system.default_inputs();
+            let State { t, q, v } = state;
+            lagrangian::InputLaw::set(&self.signals, system, *t, &q.values, &v.values, &mut u);
+            system.output(output, *t, &q.values, &v.values, &[], &u.values)
+        };
+        for (watch, &output) in self.plan.events.iter().zip(&self.events) {
             if self.signals.is_sampled() {
                 // This copy evaluates formulas; the run itself knows the held values of controllers.
                 let system = system.clone();
@@ -221,34 +260,14 @@ impl Sweep {
                 simulation.event(&watch.name, Crossing::Any, function)
             };
         }
-        let records_steps = self
-            .reductions
-            .iter()
-            .any(|made| matches!(made, ReductionSource::Along(_)))
-            || !plan.at.is_empty()
-            || plan.every.is_some();
-        if records_steps || charts.is_some() {
-            // States are shown at instants that are not known before, or only at the end.
-            let is_recorded = plan.has_samples() || !plan.at.is_empty();
-            let marked_every = if is_recorded { 0.0 } else { f64::INFINITY };
-            simulation = simulation.each_step(move |step| {
-                if let Some(charts) = charts {
-                    charts.follow(step, marked_every)?;
-                }
-                recorder.record_step(plan, run, (system, charts), step)
-            });
-        }
-        simulation.stop_if(|_| stop.load(Ordering::Relaxed))
+        simulation
     }
 
     /// The outcome of a run that was started; `None` if it was stopped.
     fn outcome(
         &self,
         run: u64,
-        (solution, error): (
-            &Solution<InterpretedMachine, Signals>,
-            Option<lagrangian::Error>,
-        ),
+        (solution, error): (&Motion, Option<lagrangian::Error>),
         (mut recorder, charts): (Recorder, Option<&Charts>),
         mut outcome: Outcome,
     ) -> Option<Outcome> {
@@ -271,15 +290,11 @@ impl Sweep {
         outcome.residual = solution.energy_balance().map(|balance| balance.residual());
         let start = charts::shown(charts, solution.start());
         recorder.record_ends(plan, (run, &start, &outcome.end));
-        let after = |t: f64| {
-            plan.after
-                .is_none_or(|after| (t - after) * plan.until.signum() >= 0.0)
-        };
         if let Some(samples) = &mut recorder.samples {
             let events = solution.events().iter();
-            for event in
-                events.filter(|event| plan.at_events.contains(&event.name) && after(event.state.t))
-            {
+            for event in events.filter(|event| {
+                plan.at_events.contains(&event.name) && self.is_evaluated(event.state.t)
+            }) {
                 let mut cells = sample(run, &charts::shown(charts, &event.state));
                 cells.push(Cell::Text(Some(event.name.clone())));
                 samples.push(cells);
@@ -292,31 +307,10 @@ impl Sweep {
             outcome.reductions = made
                 .map(|(made, tracker)| match (made, tracker) {
                     (ReductionSource::Of(Function::Power, contact), _) => {
-                        let mut names = solution.system().unilateral_contacts();
-                        let k = names.position(|of| of.name == contact)?;
-                        let since = plan.after.unwrap_or(solution.start().t);
-                        let before = match plan.after {
-                            Some(after) => solution.contact_energies_at(after)?.get(k)?.lost(),
-                            None => 0.0,
-                        };
-                        let taken = solution.contact_energies().get(k)?.lost() - before;
-                        Some(taken / (solution.end().t - since))
+                        self.mean_loss(solution, contact)
                     }
                     (ReductionSource::Of(function, name), _) => {
-                        let since = plan.after.unwrap_or(solution.start().t);
-                        let events = solution.events().iter();
-                        let mut times = events
-                            .filter(|event| event.name == *name && after(event.state.t))
-                            .map(|event| event.state.t);
-                        match function {
-                            Function::Count => Some(times.count() as f64),
-                            Function::Frequency => {
-                                let length = (solution.end().t - since).abs();
-                                Some(times.count() as f64 / length)
-                            }
-                            Function::FirstEvent => times.next(),
-                            _ => times.next_back(),
-                        }
+                        self.of_events(solution, *function, name)
                     }
                     (_, Some(tracker)) => tracker.result(),
                     (_, None) => None,
@@ -324,5 +318,42 @@ impl Sweep {
                 .collect();
         }
         Some(outcome)
+    }
+
+    /// Whether what happens at this time is evaluated.
+    fn is_evaluated(&self, t: f64) -> bool {
+        let Plan { after, until, .. } = &self.plan;
+        after.is_none_or(|after| (t - after) * until.signum() >= 0.0)
+    }
+
+    /// The mean power that a contact takes from a run, in W.
+    fn mean_loss(&self, solution: &Motion, contact: &str) -> Option<f64> {
+        let mut names = solution.system().unilateral_contacts();
+        let k = names.position(|of| of.name == contact)?;
+        let since = self.plan.after.unwrap_or(solution.start().t);
+        let before = match self.plan.after {
+            Some(after) => solution.contact_energies_at(after)?.get(k)?.lost(),
+            None => 0.0,
+        };
+        let taken = solution.contact_energies().get(k)?.lost() - before;
+        Some(taken / (solution.end().t - since))
+    }
+
+    /// A reduction of the instants of an event or of a contact.
+    fn of_events(&self, solution: &Motion, function: Function, name: &str) -> Option<f64> {
+        let since = self.plan.after.unwrap_or(solution.start().t);
+        let events = solution.events().iter();
+        let mut times = events
+            .filter(|event| event.name == name && self.is_evaluated(event.state.t))
+            .map(|event| event.state.t);
+        match function {
+            Function::Count => Some(times.count() as f64),
+            Function::Frequency => {
+                let length = (solution.end().t - since).abs();
+                Some(times.count() as f64 / length)
+            }
+            Function::FirstEvent => times.next(),
+            _ => times.next_back(),
+        }
     }
 }
