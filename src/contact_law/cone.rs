@@ -80,15 +80,30 @@ const SWEEPS_OF_FRICTION: usize = 64;
 pub(super) enum Part {
     /// The place of a normal force among the unknowns.
     Normal(usize),
-    /// The places of one or two (`count`) tangential forces, which together are no greater than `μ` times the force at `on`, if there is
-    /// one, and `known_normal` that.
-    Disc {
-        places: [usize; 2],
-        count: usize,
-        friction: f64,
-        on: Option<usize>,
-        known_normal: f64,
-    },
+    /// Tangential forces.
+    Disc(Disc),
+}
+
+/// One or two (`count`) tangential forces, which together are no greater than `μ` times the force at `on`, if there is one, and `known_normal` that.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Disc {
+    /// Their places among the unknowns.
+    pub places: [usize; 2],
+    pub count: usize,
+    pub friction: f64,
+    pub on: Option<usize>,
+    pub known_normal: f64,
+}
+
+impl Disc {
+    fn places(&self) -> &[usize] {
+        &self.places[..self.count]
+    }
+
+    /// What the forces are no greater than together.
+    fn radius(&self, z: &[f64]) -> f64 {
+        (self.friction * (self.on.map_or(0.0, |on| z[on]) + self.known_normal)).max(0.0)
+    }
 }
 
 /// Unknown forces `z`, of which `γ = A z + b`. `A` has ones, or numbers about as large, on its diagonal, and `b` is at most 1.
@@ -233,15 +248,9 @@ impl Problem {
             match *part {
                 Part::Normal(i) if solution[i] <= self.rate(i, solution) => z[i] = 0.0,
                 Part::Normal(_) => {}
-                Part::Disc {
-                    places,
-                    count,
-                    friction,
-                    on,
-                    known_normal,
-                } => {
-                    if Self::radius(friction, on, known_normal, z) == 0.0 {
-                        places[..count].iter().for_each(|i| z[*i] = 0.0);
+                Part::Disc(disc) => {
+                    if disc.radius(z) == 0.0 {
+                        disc.places().iter().for_each(|i| z[*i] = 0.0);
                     }
                 }
             }
@@ -257,19 +266,15 @@ impl Problem {
         self.b[i] + dot(self.row(i), z)
     }
 
-    fn radius(friction: f64, on: Option<usize>, known_normal: f64, z: &[f64]) -> f64 {
-        (friction * (on.map_or(0.0, |on| z[on]) + known_normal)).max(0.0)
-    }
-
-    fn towards(&self, places: &[usize], radius: f64, z: &[f64]) -> Towards {
+    fn towards(&self, disc: &Disc, z: &[f64]) -> Towards {
         let mut y = [0.0; 2];
-        for (y, &i) in y.iter_mut().zip(places) {
+        for (y, &i) in y.iter_mut().zip(disc.places()) {
             *y = z[i] - self.rate(i, z);
         }
         Towards {
             y,
             length: norm(&y),
-            radius,
+            radius: disc.radius(z),
         }
     }
 
@@ -294,22 +299,14 @@ impl Problem {
         for part in &self.parts {
             match *part {
                 Part::Normal(i) => write(i, z[i] - (z[i] - self.rate(i, z)).max(0.0)),
-                Part::Disc {
-                    places,
-                    count,
-                    friction,
-                    on,
-                    known_normal,
-                } => {
-                    let places = &places[..count];
-                    let radius = Self::radius(friction, on, known_normal, z);
-                    let towards = self.towards(places, radius, z);
+                Part::Disc(disc) => {
+                    let towards = self.towards(&disc, z);
                     let factor = if towards.slips() {
-                        radius / towards.length
+                        towards.radius / towards.length
                     } else {
                         1.0
                     };
-                    for (&i, y) in places.iter().zip(towards.y) {
+                    for (&i, y) in disc.places().iter().zip(towards.y) {
                         write(i, z[i] - factor * y);
                     }
                 }
@@ -350,8 +347,8 @@ impl Problem {
         for part in 1..=FRICTIONS {
             let mut some = self.clone();
             for part_of_contact in &mut some.parts {
-                if let Part::Disc { friction, .. } = part_of_contact {
-                    *friction *= part as f64 / FRICTIONS as f64;
+                if let Part::Disc(disc) = part_of_contact {
+                    disc.friction *= part as f64 / FRICTIONS as f64;
                 }
             }
             own.best.begin(&z, some.relative_residual(&z));
@@ -428,13 +425,13 @@ mod tests {
         let parts = (0..count).flat_map(|k| {
             [
                 Part::Normal(3 * k),
-                Part::Disc {
+                Part::Disc(Disc {
                     places: [3 * k + 1, 3 * k + 2],
                     count: 2,
                     friction,
                     on: Some(3 * k),
                     known_normal: 0.0,
-                },
+                }),
             ]
         });
         Problem {
@@ -462,13 +459,13 @@ mod tests {
                     let rate = problem.rate(*i, z);
                     worst = worst.max(-z[*i]).max(-rate).max((z[*i] * rate).abs());
                 }
-                Part::Disc {
+                Part::Disc(Disc {
                     places,
                     friction,
                     on,
                     known_normal,
                     ..
-                } => {
+                }) => {
                     let most = friction * (on.map_or(0.0, |on| z[on]) + known_normal);
                     let force: Vec<f64> = places.iter().map(|i| z[*i]).collect();
                     let slip: Vec<f64> = places.iter().map(|i| problem.rate(*i, z)).collect();
@@ -512,8 +509,8 @@ mod tests {
             let mut problem = random(&mut seed, 1, 3 + case % 3, 0.4);
             let known = if case % 3 == 0 { 0.3 } else { 0.0 };
             for part in &mut problem.parts {
-                if let Part::Disc { known_normal, .. } = part {
-                    *known_normal = known;
+                if let Part::Disc(disc) = part {
+                    disc.known_normal = known;
                 }
             }
             let start = match case % 4 {
@@ -536,13 +533,13 @@ mod tests {
         for (slip, presses) in [([0.3, 0.4], 2.0), ([0.3, 0.4], 0.5), ([0.0, -0.7], 0.2)] {
             let mut matrix = vec![0.0; 9];
             (0..3).for_each(|i| matrix[4 * i] = 1.0);
-            let disc = Part::Disc {
+            let disc = Part::Disc(Disc {
                 places: [1, 2],
                 count: 2,
                 friction: 0.5,
                 on: Some(0),
                 known_normal: 0.0,
-            };
+            });
             let problem = Problem {
                 matrix,
                 b: vec![-presses, slip[0], slip[1]],

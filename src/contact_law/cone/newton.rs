@@ -164,16 +164,9 @@ impl Problem {
                         row[i] = 1.0;
                     }
                 }
-                Part::Disc {
-                    places,
-                    count,
-                    friction,
-                    on,
-                    known_normal,
-                } => {
-                    let places = &places[..count];
-                    let radius = Self::radius(friction, on, known_normal, z);
-                    let towards = self.towards(places, radius, z);
+                Part::Disc(disc) => {
+                    let (places, towards) = (disc.places(), self.towards(&disc, z));
+                    let radius = towards.radius;
                     for (k, &i) in places.iter().enumerate() {
                         let row = &mut slopes[i * n..][..n];
                         if !towards.slips() {
@@ -195,8 +188,8 @@ impl Problem {
                                 *slope += turns * a;
                             }
                         }
-                        if let Some(on) = on {
-                            row[on] -= friction * unit(k);
+                        if let Some(on) = disc.on {
+                            row[on] -= disc.friction * unit(k);
                         }
                     }
                 }

@@ -20,35 +20,20 @@ impl Problem {
                 Part::Normal(i) => {
                     let mut all = [i; 3];
                     let (mut count, mut law) = (1, (0.0, 0.0));
-                    if let Some(&Part::Disc {
-                        places,
-                        count: tangents,
-                        friction,
-                        on: Some(on),
-                        known_normal,
-                    }) = self.parts.get(index + 1)
-                        && on == i
+                    if let Some(Part::Disc(disc)) = self.parts.get(index + 1)
+                        && disc.on == Some(i)
                     {
-                        all[1..].copy_from_slice(&places);
-                        (count, law) = (1 + tangents, (friction, known_normal));
+                        all[1..].copy_from_slice(&disc.places);
+                        (count, law) = (1 + disc.count, (disc.friction, disc.known_normal));
                         solved = Some(index + 1);
                     }
                     let found = self.single_contact_forces(&all[..count], law, z);
                     replace(z, &all[..count], &found);
                 }
-                Part::Disc { .. } if solved == Some(index) => {}
-                Part::Disc {
-                    places,
-                    count,
-                    friction,
-                    on,
-                    known_normal,
-                } => {
-                    let places = &places[..count];
-                    let radius = Self::radius(friction, on, known_normal, z);
-                    let own = self.local(places, z);
-                    let found = own.on_disc(radius);
-                    replace(z, places, &found[..count]);
+                Part::Disc(_) if solved == Some(index) => {}
+                Part::Disc(disc) => {
+                    let found = self.local(disc.places(), z).on_disc(disc.radius(z));
+                    replace(z, disc.places(), &found[..disc.count]);
                 }
             }
         }

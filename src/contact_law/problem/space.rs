@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use super::super::cone::{self, Part};
+use super::super::cone::{self, Disc, Part};
 use super::super::lcp::Unsolved;
 use super::ContactUnknowns;
 
@@ -148,13 +148,13 @@ impl SpaceProblem<'_> {
                 places[1] = memory.push_unknown(2 * k + 3);
                 count = 2;
             }
-            memory.problem.parts.push(Part::Disc {
+            memory.problem.parts.push(Part::Disc(Disc {
                 places,
                 count,
                 friction,
                 on,
                 known_normal,
-            });
+            }));
         }
     }
 
@@ -171,7 +171,7 @@ impl SpaceProblem<'_> {
         units.extend(directions.map(|direction| self.entry(*direction, *direction)));
         // Both tangents of a contact have one unit of impulse, so that its disc stays one.
         for part in &self.memory.problem.parts {
-            if let Part::Disc { places, .. } = part {
+            if let Part::Disc(Disc { places, .. }) = part {
                 let greatest = places.iter().fold(0.0_f64, |most, i| most.max(units[*i]));
                 places.iter().for_each(|i| units[*i] = greatest);
             }
@@ -212,18 +212,11 @@ impl SpaceProblem<'_> {
         let rate = self.rate;
         let cone::Problem { parts, units, .. } = &mut self.memory.problem;
         for part in parts {
-            if let Part::Disc {
-                places,
-                friction,
-                on,
-                known_normal,
-                ..
-            } = part
-            {
-                let own = units[places[0]];
-                let pressing = on.map_or(own, |on| units[on]);
-                *friction *= pressing / own;
-                *known_normal /= pressing * rate;
+            if let Part::Disc(disc) = part {
+                let own = units[disc.places[0]];
+                let pressing = disc.on.map_or(own, |on| units[on]);
+                disc.friction *= pressing / own;
+                disc.known_normal /= pressing * rate;
             }
         }
     }
