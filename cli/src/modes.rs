@@ -26,7 +26,7 @@ use crate::failure::Failure;
 pub use crate::numbers::number;
 use crate::numbers::shown_name;
 use crate::other_chart::{self, OtherChart};
-use crate::output::{self, Destination, SVG, TABLE, keep_apart};
+use crate::output::{self, Destination, TABLE, keep_apart};
 use crate::reading::{self, Reading};
 use crate::table;
 use vary::Trace;
@@ -47,11 +47,9 @@ struct Files {
 
 impl Files {
     fn new(call: &call::Modes) -> Result<Files, Failure> {
-        let files = Files {
-            out: Destination::of("--out", call.out.as_ref(), TABLE)?,
-            plot: Destination::of("--plot", call.plot.as_ref(), SVG)?,
-        };
-        output::keep_document_apart(files.all(), call.spec.json)?;
+        let out = (call.out.as_ref(), TABLE);
+        let [out, plot] = Destination::out_and_plot(out, call.plot.as_ref(), call.spec.json)?;
+        let files = Files { out, plot };
         keep_apart(files.all(), &[(&call.spec.path, "the spec")])?;
         Ok(files)
     }

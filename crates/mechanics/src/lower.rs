@@ -23,7 +23,7 @@ use accelerations::{is_mostly_formulas, ways_to_accelerations};
 use choosing::{Draft, PlannedFunction};
 use chosen::ChosenFunctions;
 use lagrangian_program::EliminationStep;
-use lagrangian_program::choose::{Basis, Candidate, Choice, best};
+use lagrangian_program::choose::{Basis, Candidate, Choice, Form, best};
 use lagrangian_program::graph::{Graph, Id, Scaled};
 use lagrangian_program::quantity::Sizes;
 use lagrangian_program::schedule::prepared;
@@ -286,6 +286,18 @@ impl<'a, 'd> LoweringInput<'a, 'd> {
             unprojected: self.unprojected,
             cut_open: self.cut_open,
             reduction: None,
+        }
+    }
+
+    /// The quantities of the equations in all coordinates, multiplied out if the accelerations follow from those.
+    fn in_all_coordinates(self, accelerations: &Draft) -> (Basis, &'a [Quantity<'d>]) {
+        match accelerations.form {
+            Form {
+                basis: Basis::Expanded,
+                reduced: false,
+                ..
+            } => (Basis::Expanded, self.expanded),
+            _ => (Basis::Derived, self.quantities),
         }
     }
 }

@@ -282,26 +282,9 @@ impl Loops for Rust<'_> {
 
 /// The method of `Scalar` for a function.
 fn method(function: symbolic::Function) -> &'static str {
-    use symbolic::Function::*;
     match function {
-        Sin => "sin",
-        Cos => "cos",
-        Tan => "tan",
-        Asin => "asin",
-        Acos => "acos",
-        Atan => "atan",
-        Atan2 => "atan2",
-        Sinh => "sinh",
-        Cosh => "cosh",
-        Tanh => "tanh",
-        Exp => "exp",
-        Ln => "ln",
-        Sqrt => "sqrt",
-        Abs => "abs",
-        Sign => "sign",
-        Min => "min",
-        Max => "max",
-        Pow => "powf",
+        symbolic::Function::Pow => "powf",
+        other => other.name(),
     }
 }
 
