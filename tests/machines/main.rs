@@ -1,5 +1,6 @@
 //! The machines of the library run and are compared with closed forms, publications and
 //! results in higher precision.
+#![allow(clippy::too_many_lines, reason = "a test reads from top to bottom")]
 
 mod collisions;
 mod crushers;
