@@ -34,7 +34,7 @@ pub(crate) mod literal;
 
 mod power;
 mod projected;
-mod reduction;
+pub(crate) mod reduction;
 pub(crate) mod refusal;
 pub(crate) mod shorter;
 mod sliding;
