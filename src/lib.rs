@@ -4,8 +4,8 @@
 //! A [`System`] is the equations of motion of a machine, a [`Machine`] its parameters. [`Simulation`] integrates them and returns a
 //! [`Solution`]: the state at every instant, events, and the energy balance. A [`Stepper`] takes single steps and needs no allocator.
 //!
-//! The runtime knows nothing of the macro. A crate waits for the macros that it re-exports, and for all that these are made of: if the
-//! runtime did so, it could not be compiled beside the compiler of specs.
+//! The runtime does not depend on the macro. Cargo compiles a crate after the macros that it re-exports and after all crates that these are
+//! made of, so the runtime could otherwise not be compiled at the same time as the compiler of specs.
 #![no_std]
 
 #[cfg(feature = "std")]

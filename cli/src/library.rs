@@ -1,6 +1,6 @@
 //! `lagrangian library`: a machine as a shared library for C and languages that can call C.
 //!
-//! A single call of `rustc` compiles one file without dependencies: the module of the machine, the exports
+//! A single call of `rustc` compiles one file without dependencies: the module of the machine, the exported functions
 //! (`library/export.rs`), and the text of the required parts of the crates `lagrangian-scalar` and `lagrangian-native`.
 
 use std::ffi::OsString;

@@ -433,7 +433,7 @@ class Machine(_native.Machine):
         return self._once("program", lambda: Program(self))
 
     def derive(self, form: str) -> str:
-        """What ``lagrangian derive`` prints in a form: ``markdown``, ``latex``, ``html``, ``article``, ``rust``, ``c`` or ``program``."""
+        """What ``lagrangian derive`` prints in a form: ``markdown``, ``latex``, ``html``, ``rust``, ``c`` or ``program``."""
         return str(self._program.derive(form))
 
     def evaluate(

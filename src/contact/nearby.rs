@@ -1,7 +1,7 @@
 //! Which contacts are near: all others stay open while the motion stays within a box around the present state.
 //!
 //! The gap of each contact has a lower bound in the box ([`System::least_gaps`](crate::System::least_gaps)). If it is positive, the contact cannot close there, and
-//! a run does not evaluate it until the motion leaves the box: contacts that are far away cost nothing in most steps, and one bound for each new box. (The neighbour
+//! a run does not evaluate it until the motion leaves the box. Contacts that are far away cost nothing in most steps, and one bound for each new box. (The neighbour
 //! lists of molecular dynamics do the same with balls: L. Verlet, Phys. Rev. 159 (1967) 98–103.)
 //!
 //! A run evaluates gaps along a polynomial: the Taylor polynomial in a step by series, the quintic through the ends in other steps. A polynomial lies between
