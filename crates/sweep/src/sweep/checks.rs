@@ -29,6 +29,9 @@ fn check_design(plan: &Plan) -> Result<(), PlanError> {
     if plan.runs() == 0 {
         return wrong("there are no runs: a factor of the design has no values".into());
     }
+    if let Some(fault) = plan.design.iter().find_map(design::Factor::fault) {
+        return wrong(fault);
+    }
     for factor in &plan.design {
         if let design::Factor::Sample {
             design: design::Sampling::Sobol,
