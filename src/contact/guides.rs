@@ -25,8 +25,8 @@ use crate::at::At;
 use crate::constraints::algebra::dot;
 use crate::{Pivot, Singular, System, Vector};
 
-/// By how much the coefficients of multipliers may miss the rows of the constraints, relative to the greatest, and up to which share of their terms forces that
-/// are undetermined leave a reaction as it is: beyond, it depends on how constraints or contacts share their load.
+/// The largest residual of the coefficients of multipliers in the rows of the constraints, relative to the largest coefficient, and the largest change of a reaction by
+/// undetermined forces, relative to its terms, with which a reaction counts as determined. Otherwise it depends on how constraints or contacts share their load.
 const DETERMINED: f64 = 1e-9;
 
 /// What the reactions of guides are made of at a state.

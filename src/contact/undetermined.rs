@@ -145,7 +145,7 @@ pub(super) fn effect(images: &[Vec<f64>], forces: &[f64]) -> (Vec<f64>, f64) {
     (sum, size)
 }
 
-/// Of undetermined forces those combinations that change no acceleration; `effects` holds the [`effect`] of each.
+/// The combinations of undetermined forces that change no acceleration; `effects` holds the [`effect`] of each force.
 pub(super) fn without_effect(by: Vec<Vec<f64>>, effects: &[(Vec<f64>, f64)]) -> Vec<Vec<f64>> {
     let scaled: Vec<Vec<f64>> = (effects.iter())
         .map(|(effect, size)| {
@@ -606,16 +606,16 @@ mod tests {
             let (a, slope) = (2.09 / 6.18, -0.3 / 6.18);
             for (force, x) in answer.forces.iter().zip(x) {
                 let expected = a + slope * x / size;
-                // Rates that are 0 to 1e-11 tell forces at levers of this size.
+                // Rates that are 0 to within 1e-11 determine forces at levers of this size.
                 let error = (force[0] - expected).abs();
                 assert!(error <= 1e-11 / (size * size), "{size}: {answer:?}");
             }
         }
     }
 
-    /// Where the rates of the levers are too small to tell forces from rounding, but not so small that they are none, the answer says that it is another one.
+    /// If the rates of the levers are too small to determine forces, but larger than rounding, the answer states that another distribution was taken.
     #[test]
-    fn another_distribution_is_told() {
+    fn another_distribution_is_reported() {
         let (contacts, g, b) = three_feet([-1e-9, 3e-10, 1e-9], 0.3);
         let answer = solve(&contacts, &g, &b).expect("solved");
         assert_eq!(answer.shared_otherwise, [0, 1, 2]);

@@ -60,7 +60,7 @@ pub struct Fmu {
     #[arg(long, value_enum)]
     pub method: Option<UnitMethod>,
     /// Relative and absolute tolerance of co-simulation, unless the importer gives one.
-    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, default_value = "1e-9", value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
     /// Change the default of a parameter or an input, as in `--set omega=120`.
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
