@@ -167,7 +167,7 @@ fn tests_that_pages_name_exist() {
                     let sources = sources_of(program);
                     let runs = |filter: &&str| sources.iter().any(|file| is_in(file, filter));
                     if sources.is_empty()
-                        || !(filters.is_empty() || filters.iter().any(|f| runs(&f)))
+                        || !(filters.is_empty() || filters.iter().any(|f| runs(f)))
                     {
                         wrong.push(format!("{page}: cargo test {call}"));
                     }
