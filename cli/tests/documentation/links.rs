@@ -166,9 +166,7 @@ fn tests_that_pages_name_exist() {
                     named += 1;
                     let sources = sources_of(program);
                     let runs = |filter: &&str| sources.iter().any(|file| is_in(file, filter));
-                    if sources.is_empty()
-                        || !(filters.is_empty() || filters.iter().any(|f| runs(f)))
-                    {
+                    if sources.is_empty() || !(filters.is_empty() || filters.iter().any(runs)) {
                         wrong.push(format!("{page}: cargo test {call}"));
                     }
                 }
