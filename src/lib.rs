@@ -59,6 +59,10 @@ pub mod interpreted;
 #[cfg(feature = "nalgebra")]
 pub mod matrices;
 
+#[cfg(feature = "text")]
+#[doc(hidden)]
+pub mod files;
+
 #[cfg(feature = "std")]
 mod equations;
 #[cfg(feature = "std")]
@@ -153,6 +157,8 @@ pub use observation::Observation;
 pub use phases::{ContactPhase, PhaseCause};
 #[cfg(feature = "std")]
 pub use roots::extremes;
+#[cfg(feature = "std")]
+pub use run::in_pieces::{PreparedRun, RunInPieces};
 #[cfg(feature = "std")]
 pub use sensitivities::{Sensitive, SensitiveSystem, Varied};
 #[cfg(feature = "std")]

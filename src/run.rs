@@ -11,6 +11,7 @@ mod flights;
 mod guides;
 mod handing_over;
 pub(crate) mod in_lanes;
+pub(crate) mod in_pieces;
 mod reasons;
 mod recording;
 pub(crate) mod sampled;
@@ -279,6 +280,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             start: start.t,
             until,
             stop: until,
+            most_steps: settings.max_steps,
             sampling,
             next_step: None,
             activity: activity(system, settings),
@@ -334,6 +336,8 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
     until: f64,
     /// Where the stepper stops next: where the inputs are not smooth, at a sample or a delayed action of a controller, or at the end.
     stop: f64,
+    /// The largest number of steps of the run so far, and to its end.
+    most_steps: usize,
     /// The inputs of a sampled controller, if there is one.
     sampling: Option<Sampling<Inputs<M>>>,
     /// The length of the step within which the run ended at an event.
@@ -518,7 +522,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Checks that one more step may be taken.
     #[inline(always)]
     fn check_count(&self) -> Result<(), Error> {
-        if self.stepper.work().steps == self.settings.max_steps {
+        if self.stepper.work().steps == self.most_steps {
             Err(Error::TooManySteps {
                 steps: self.settings.max_steps,
                 t: self.stepper.t(),

@@ -1,6 +1,7 @@
 //! The settings of a run: method, tolerances, events, observers, samples, energy balance.
 
 mod compiled_in_lanes;
+mod in_pieces;
 
 use std::boxed::Box;
 use std::vec::Vec;

@@ -8,6 +8,7 @@ mod flights;
 mod formulations;
 mod friction;
 mod guides_and_contacts;
+mod in_pieces;
 mod known_runs;
 mod library;
 mod long_runs;
