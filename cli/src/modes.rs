@@ -195,7 +195,8 @@ pub fn compiled<'d, 'a>(
     );
     let reading = Reading::open(spec)?.with_values(start);
     let mut cartesian = None;
-    let (compiled, _) = compile(reading, dag, files, with_sliding, |model| {
+    let refused = |model: &Model<'d>| !model.sliding().is_empty();
+    let (compiled, _) = compile(reading, dag, files, (refused, with_sliding), |model| {
         cartesian = model.cartesian.take();
         Ok(())
     })?;
@@ -214,21 +215,23 @@ pub fn compiled_with<'d, 'a>(
         "finding the {noun} of a machine with `sliding` requires derivatives of its motion, which do not exist where it begins to stick or to \
          slide; use a variant without friction, with a constraint in place of each guide"
     );
-    compile(reading, dag, files, with_sliding, change)
+    // Beside contacts, guides are followed from one change to the next as these are.
+    let refused = |model: &Model<'d>| !model.sliding().is_empty() && model.contacts.is_empty();
+    compile(reading, dag, files, (refused, with_sliding), change)
 }
 
-/// Compiles an opened spec; `change` modifies its model before it is derived. The message explains why `sliding` is not supported.
+/// Compiles an opened spec; `change` modifies its model before it is derived. The message explains why the `sliding` of a model that is `refused` is not supported.
 fn compile<'d, 'a>(
     mut reading: Reading,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
-    with_sliding: String,
+    (refused, with_sliding): (impl Fn(&Model<'d>) -> bool, String),
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
 ) -> Result<(Compiled<'d>, Sources), Failure> {
     let mut model = reading.model(dag);
     reading.keep_from(files)?;
     if let Some(model) = &model
-        && !model.sliding().is_empty()
+        && refused(model)
     {
         return Err(Failure::Run(with_sliding));
     }

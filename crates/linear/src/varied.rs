@@ -20,7 +20,7 @@ use lagrangian::{
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
 
-pub(crate) use contacts::{DualState, Sought, add};
+pub(crate) use contacts::{Acts, DualState, Sought, SoughtReaction};
 pub use contacts::{Layer, Phase};
 
 /// A direction of differentiation: the change of each parameter, and of each input that nothing drives.
