@@ -72,8 +72,8 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     if !program.contacts.is_empty() || program.sizes().guides > 0 {
         return Err(Failure::run(
             "whether a contact sticks or slides is not a function of q and v alone: a library of a machine with \
-             `sliding` cannot be made; use a variant with a constraint in place of each guide, or run it with `lagrangian simulate` or the \
-             crate",
+             `sliding` cannot be made; use a variant with a constraint in place of each guide, or run it with `lagrangian simulate`, the \
+             crate, or a unit of `lagrangian fmu`, which C programs can call",
         ));
     }
     warn_of_constraints(&program);

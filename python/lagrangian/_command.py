@@ -189,10 +189,10 @@ def fmu(
     out: Union[str, "os.PathLike[str]"],
     *,
     fmi: int = 3,
-    kind: Sequence[str] = ("me", "cs"),
+    kind: Optional[Sequence[str]] = None,
     outputs: Optional[Sequence[str]] = None,
     events: Optional[Mapping[str, str]] = None,
-    method: str = "dop853",
+    method: Optional[str] = None,
     tolerance: float = 1e-9,
     start: Any = None,
     rate: Any = None,
@@ -202,11 +202,14 @@ def fmu(
 ) -> Fmu:
     """Writes a functional mock-up unit, ``.fmu``, with the parameters and inputs of this machine as defaults, as ``lagrangian fmu``.
 
-    A C compiler makes its libraries, unless ``sources_only``. ``kind``: ``"me"``, model exchange, and ``"cs"``, co-simulation, by
-    ``method`` to ``tolerance``. ``outputs`` are names, ``events`` formulas whose changes of sign are reported, by name.
+    A C compiler makes its libraries, unless ``sources_only``, and ``rustc`` beside it those of machines with contacts or guides. ``kind``: ``"me"``, model
+    exchange, and ``"cs"``, co-simulation, by ``method``, ``"dop853"`` or ``"dopri5"``, to ``tolerance``; by default both, or what the machine allows. ``outputs`` are names, ``events`` formulas whose changes of sign are reported, by name.
     """
-    options = [f"--out={os.fspath(out)}", f"--fmi={fmi}", f"--kind={','.join([kind] if isinstance(kind, str) else kind)}"]
-    options += [f"--method={method}", f"--tolerance={float(tolerance)!r}"]
+    options = [f"--out={os.fspath(out)}", f"--fmi={fmi}", f"--tolerance={float(tolerance)!r}"]
+    if kind is not None:
+        options.append(f"--kind={','.join([kind] if isinstance(kind, str) else kind)}")
+    if method is not None:
+        options.append(f"--method={method}")
     options += [*settings(self), *_places(self, "--start", start), *_places(self, "--rate", rate)]
     if outputs is not None:
         options.append(f"--outputs={','.join([outputs] if isinstance(outputs, str) else outputs)}")

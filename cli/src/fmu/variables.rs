@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use lagrangian_program::Program;
 use lagrangian_units::state_of;
 
+use super::run::OF_CONTACTS;
 use crate::call::Assignment;
 use crate::failure::Failure;
 
@@ -26,6 +27,8 @@ pub enum VariableKind {
     Event(usize),
     /// The number of occurrences of an event.
     Count(usize),
+    /// A quantity of a contact: the indices of the contact and of the quantity.
+    OfContact(usize, usize),
 }
 
 /// A variable; its reference is its index.
@@ -47,8 +50,8 @@ pub struct Variables {
 
 impl Variables {
     /// The variables of a machine. The outputs are those of its spec or, if there are none, its coordinates. The last outputs of
-    /// the program are the formulas of events.
-    pub fn new(program: &Program, events: &[Assignment]) -> Variables {
+    /// the program are the formulas of events; `contacts` are those of a run.
+    pub fn new(program: &Program, events: &[Assignment], contacts: &[String]) -> Variables {
         let names = |slots: &[lagrangian_program::Slot]| -> Vec<String> {
             let names = slots.iter().map(|slot| slot.name.to_string());
             names.map(|name| structured(&name)).collect()
@@ -110,6 +113,7 @@ impl Variables {
         all.extend(each(&events, VariableKind::Count, |name| {
             format!("event.{name}")
         }));
+        all.extend(contacts.iter().enumerate().flat_map(of_contact));
         let mut taken = BTreeSet::new();
         let all: Vec<Variable> = all
             .into_iter()
@@ -173,6 +177,17 @@ impl Variables {
         let all = self.all.iter().enumerate();
         all.filter(move |(_, variable)| is_wanted(&variable.kind))
     }
+}
+
+/// The kinds and names of the variables of a contact.
+fn of_contact((contact, name): (usize, &String)) -> Vec<(VariableKind, String)> {
+    let name = name.replace(['\'', '\\', '"'], "");
+    let of = OF_CONTACTS.iter().enumerate();
+    of.map(|(quantity, what)| {
+        let kind = VariableKind::OfContact(contact, quantity);
+        (kind, format!("'{what}({name})'"))
+    })
+    .collect()
 }
 
 /// A name by the structured naming convention: an identifier with an index, or a quoted name.

@@ -18,6 +18,7 @@ mod derived_parameters;
 mod exported;
 mod fit;
 mod fmu;
+mod fmu_with_runs;
 mod formulas;
 mod host;
 mod impacts;
