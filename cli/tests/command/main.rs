@@ -40,6 +40,7 @@ mod scripts;
 mod signals;
 mod states;
 mod stepped_in_space;
+mod stepped_energies;
 mod stepped_laws;
 #[path = "../support/mod.rs"]
 mod support;
