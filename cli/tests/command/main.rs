@@ -39,8 +39,8 @@ mod runs;
 mod scripts;
 mod signals;
 mod states;
-mod stepped_in_space;
 mod stepped_energies;
+mod stepped_in_space;
 mod stepped_laws;
 #[path = "../support/mod.rs"]
 mod support;
