@@ -232,7 +232,7 @@ impl UnilateralState {
         contacts_of_step.write_impulses(impulses, laws)?;
         let changed = self.write_change(system, (t, q), (&here, before, v), memory);
         self.tell(system, (t, q), &here, h, (stepped, memory));
-        stepped.work = changed + stepped.work;
+        stepped.work += changed;
         self.set_stepped(&memory.modes, &memory.forces);
         Ok(())
     }

@@ -152,7 +152,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let stages = self.method.tableau.stages;
         let work = &mut self.control.work;
         (self.model).end(
-            &mut self.now,
+            &self.now,
             &mut self.quadratures,
             stages,
             &mut self.k,
