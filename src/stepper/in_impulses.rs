@@ -151,13 +151,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         write_course(&mut impulses.of_step, (before, &*now), h);
         let stages = self.method.tableau.stages;
         let work = &mut self.control.work;
-        (self.model).end(
-            &self.now,
-            &mut self.quadratures,
-            stages,
-            &mut self.k,
-            work,
-        )
+        (self.model).end(&self.now, &mut self.quadratures, stages, &mut self.k, work)
     }
 
     /// Writes the place in the middle of the step, and which contacts are near there; and that nothing has happened yet.
