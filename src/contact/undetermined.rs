@@ -326,6 +326,9 @@ pub(super) fn solve_for_motion(
     let start = some.is_ok().then_some(answer.forces.as_slice());
     let problem = (g, b, &groups[..]);
     let mut found = distributed(contacts, problem, (start, true), HELD, memory);
+    if found.is_none() && some.is_ok() {
+        found = distributed_among_held(contacts, (g, b), &answer.forces, memory);
+    }
     if found.is_none() && rates_of_a_motion.is_none() {
         rates_of_a_motion = without_rounding_of_gaps(contacts, (g, b), memory);
         if let Some(rates) = &rates_of_a_motion {
@@ -339,6 +342,50 @@ pub(super) fn solve_for_motion(
     }
     answer.shared_otherwise = depends;
     some
+}
+
+/// The solution with the distribution of the rule among the contacts that do not open with these forces, if it leaves the others open. Of feet of a rigid body whose rates are almost those of a
+/// motion one opens so slowly that contacts which yield would press there all the same, until they are very stiff.
+fn distributed_among_held(
+    contacts: &[ContactUnknowns],
+    (g, b): (&[f64], &[f64]),
+    forces: &[[f64; 2]],
+    memory: &mut Memory,
+) -> Option<Answer> {
+    let least = HELD * greatest(b);
+    let rows = || b.iter().zip(g.chunks_exact(b.len())).step_by(2);
+    let rates = |forces: &[[f64; 2]]| -> Vec<f64> {
+        rows()
+            .map(|(b, row)| b + dot(row, forces.as_flattened()))
+            .collect()
+    };
+    let (mut held, mut opens) = (contacts.to_vec(), vec![false; contacts.len()]);
+    for (k, rate) in rates(forces).into_iter().enumerate() {
+        opens[k] = match contacts[k] {
+            ContactUnknowns::Both { .. } | ContactUnknowns::Normal { .. } => {
+                forces[k][0] == 0.0 && rate > least
+            }
+            ContactUnknowns::OnCarrier { on, .. } | ContactUnknowns::ShareOfCarrier { on, .. } => {
+                opens[on]
+            }
+            ContactUnknowns::SecondTangent => opens[k - 1],
+            _ => false,
+        };
+        if opens[k] {
+            held[k] = ContactUnknowns::Nothing;
+        }
+    }
+    if !opens.contains(&true) {
+        return None;
+    }
+    let groups = sharing_contacts(&held, g, |_| true, &mut memory.sharing);
+    if groups.is_empty() {
+        return None;
+    }
+    let found = distributed(&held, (g, b, &groups), (Some(forces), true), HELD, memory)?;
+    let mut stay = rates(&found.forces).into_iter().zip(&opens);
+    stay.all(|(rate, opens)| !opens || rate >= -least)
+        .then_some(found)
 }
 
 /// The rates of contacts, with those of their normals as a motion of the machine makes them; none if they are so already, or differ by more than rounding.
