@@ -327,6 +327,9 @@ impl UnilateralState {
                 courses[place - 1].is_coupled
             };
         }
+        if self.steps_in_one_problem() {
+            write_pressing(meeting, courses);
+        }
     }
 
     /// Adds what the impulses do to the rates, and writes how they move the end of the step. The kinetic energy that they add with the mean rates of the step, in J.
@@ -532,6 +535,38 @@ impl UnilateralState {
 fn contacts_at(active: &[usize], places: &[usize], contacts: &mut Vec<usize>) {
     contacts.clear();
     contacts.extend(places.iter().map(|place| active[*place]));
+}
+
+/// Writes with which acceleration forces press contacts together that inertia couples, directly or by others: what closes one of them presses the others by it. The feet of a body on
+/// another one that rests on the floor fall together with the gaps that they have, and only the floor presses them.
+fn write_pressing(meeting: &Meeting, courses: &mut [Course]) {
+    for course in &mut *courses {
+        course.pressed = if course.is_coupled {
+            course.acceleration().max(0.0)
+        } else {
+            0.0
+        };
+    }
+    loop {
+        let mut changes = false;
+        for place in 1..courses.len() {
+            for other in (0..place).rev() {
+                let pair = [place, other].map(|place| courses[place].pressed);
+                if pair[0] != pair[1]
+                    && courses[place].is_coupled
+                    && courses[other].is_coupled
+                    && is_coupled(meeting, [place, other])
+                {
+                    let most = pair[0].max(pair[1]);
+                    (courses[place].pressed, courses[other].pressed) = (most, most);
+                    changes = true;
+                }
+            }
+        }
+        if !changes {
+            return;
+        }
+    }
 }
 
 /// Writes the rates of all directions with these impulses, from what they would be without.

@@ -24,6 +24,8 @@
 //! | rests: all of its further bounces, which take 2 e V/(a (1 − e)) with a = −α, would be within the step | 0 | that with which its gap ends at 0 |
 //! | stays beside what it touches | −2/h times its gap in the middle, as far as that is positive or due to the curvature of what is touched | ½ |
 //!
+//! Of contacts that inertia couples, a is the greatest one of all of them: what presses the lowest of a pile of bodies presses those above it, which without impulses fall together.
+//!
 //! What rests is pressed throughout the step, and then w = ½. Contacts that inertia couples all have w = ½: feet of one body would otherwise have to open at rates that no motion of it has, and
 //! an impulse on one foot would turn the body into the floor under another that holds it. Of these, a contact that would bounce and return rests, and what rests comes to its gap as what stays beside it does: its rates are no more
 //! than `h α`, which is the error of the method. If it closes in the second half of the step, it does so in the next one. A contact that bounces may then end beyond its gap, from where moving it out takes no more energy than is left.
@@ -76,7 +78,7 @@ pub(super) struct Course {
     pub rounding: f64,
     /// Whether it is closed and at rest at the beginning of the step, up to rounding.
     pub is_at_rest: bool,
-    /// The acceleration with which others press it together, if that is known.
+    /// The acceleration with which others press it together, or forces those that inertia couples with it, if that is known.
     pub pressed: f64,
     pub restitution: f64,
 }
@@ -114,11 +116,22 @@ impl Course {
         self.fall(0.0).is_some() && self.fall(self.bias).is_some()
     }
 
+    /// Whether its gap is closed in the middle of the step.
+    pub fn is_closed(&self) -> bool {
+        self.gap <= self.rounding
+    }
+
     /// Whether it meets what it touches in the next step only: one of coupled contacts that closes for good behind the middle of the step. It is moved out of what it penetrates, and stops in the
     /// next step at the same rate as the other feet of its body, 0.
     pub fn waits(&self) -> bool {
-        let may_wait = self.is_coupled && !self.lasts && self.gap > self.rounding;
+        let may_wait = self.is_coupled && !self.lasts && !self.is_closed();
         may_wait && self.approach().manner == Manner::Rests
+    }
+
+    /// The acceleration with which forces close it, if they do.
+    pub fn acceleration(&self) -> f64 {
+        let [before, after] = self.rates;
+        (before - after) / self.h - self.bias
     }
 
     /// How it falls to its gap, with this acceleration beside that of the forces.
