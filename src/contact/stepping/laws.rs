@@ -117,14 +117,11 @@ impl ContactsOfStep<'_> {
         if !in_one_problem && self.first_impact(&impulses.approaches).is_some() {
             return self.write_divided(impulses, memory);
         }
-        let mut has_impulses = self.whole(impulses, memory);
-        let mut is_jammed = false;
-        if !has_impulses && in_one_problem {
-            (has_impulses, is_jammed) = self.whole_from_inelastic(impulses, memory);
-        }
-        if !has_impulses {
-            return Err(self.unsettled());
-        }
+        let is_jammed = if self.whole(impulses, |_| true, memory) {
+            false
+        } else {
+            (self.whole_otherwise(impulses, memory)).ok_or_else(|| self.unsettled())?
+        };
         let answer = &memory.answer;
         impulses.all.clone_from(&answer.forces);
         impulses.last.clone_from(&answer.forces);
@@ -137,26 +134,29 @@ impl ContactsOfStep<'_> {
         Ok(())
     }
 
-    /// Solves for the impulses of the whole step where the search for them has failed: from those without restitution, which then are the answer if these lead to none. Whether there are any, and
-    /// whether they are without restitution.
-    fn whole_from_inelastic(
+    /// Solves for the impulses of the whole step where the search for them has failed; whether they are without restitution, if there are any. The search begins at those without restitution. If that
+    /// fails too, only those contacts press that are closed in the middle of the step, as Moreau has it: feet of a body that stay beside what they touch do so at rates of their gaps, which others
+    /// that are beyond theirs do not have, and so no motion of the body.
+    fn whole_otherwise(
         &self,
         impulses: &mut ImpulsesOfStep,
         memory: &mut LawsMemory,
-    ) -> (bool, bool) {
+    ) -> Option<bool> {
+        let is_closed = |place: usize| self.courses[place].is_closed();
         self.write_approaches(false, &mut impulses.approaches);
-        if !self.whole(impulses, memory) {
-            return (false, false);
+        if self.whole(impulses, |_| true, memory) {
+            memory.start = Some(memory.answer.forces.clone());
         }
-        memory.start = Some(memory.answer.forces.clone());
         self.write_approaches(true, &mut impulses.approaches);
-        let has_impulses = self.whole(impulses, memory);
+        let has_impulses = memory.start.is_some() && self.whole(impulses, |_| true, memory);
         memory.start = None;
-        if has_impulses {
-            return (true, false);
+        if has_impulses || self.whole(impulses, is_closed, memory) {
+            return Some(false);
         }
         self.write_approaches(false, &mut impulses.approaches);
-        (self.whole(impulses, memory), true)
+        let has_impulses =
+            self.whole(impulses, |_| true, memory) || self.whole(impulses, is_closed, memory);
+        has_impulses.then_some(true)
     }
 
     /// Writes how contacts meet, with their restitution or without.
@@ -313,8 +313,13 @@ impl ContactsOfStep<'_> {
         resting.extend((0..self.meeting.contacts.len()).map(rests));
     }
 
-    /// Solves for the impulses of the whole step in one problem; whether there are any that obey the law.
-    fn whole(&self, impulses: &mut ImpulsesOfStep, memory: &mut LawsMemory) -> bool {
+    /// Solves for the impulses of the whole step in one problem, of the contacts that take part; whether there are any that obey the law.
+    fn whole(
+        &self,
+        impulses: &mut ImpulsesOfStep,
+        takes_part: impl Fn(usize) -> bool,
+        memory: &mut LawsMemory,
+    ) -> bool {
         let ImpulsesOfStep {
             rests, approaches, ..
         } = impulses;
@@ -340,7 +345,7 @@ impl ContactsOfStep<'_> {
             b.extend([free[0] - approach.least, of_tangent]);
         }
         self.write_resting(rests);
-        let has_impulses = self.held(&b, (&self.meeting.before, 1.0), rests, |_| true, memory);
+        let has_impulses = self.held(&b, (&self.meeting.before, 1.0), rests, takes_part, memory);
         memory.b = b;
         has_impulses
     }
