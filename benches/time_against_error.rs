@@ -2,10 +2,11 @@
 //! digits (`tests/data/references/`).
 //!
 //! ```sh
-//! cargo bench --bench time_against_error [-- --only NAME,NAME] [--methods NAME;NAME] [--tolerances NUMBER,NUMBER] [--repeats COUNT]
+//! cargo bench --bench time_against_error [-- --only NAME,NAME] [--methods NAME;NAME] [--tolerances NUMBER,NUMBER] [--repeats COUNT] [--costs]
 //! ```
 //!
-//! A second table compares the method that a simulation chooses, `auto`, with the best one at each error.
+//! A second table compares the method that a simulation chooses, `auto`, with the best one at each error. With `--costs` there is one table instead: the
+//! times of steps, measured and as `auto` estimates them.
 //!
 //! `benches/peers/work_precision.py` calls it for one run at a time, alternating with its peers, and plots all of them.
 
@@ -74,6 +75,7 @@ struct Call {
     methods: Option<Vec<String>>,
     tolerances: Option<Vec<f64>>,
     repeats: usize,
+    costs: bool,
 }
 
 impl Call {
@@ -93,6 +95,7 @@ impl Call {
             }),
             repeats: after("--repeats")
                 .map_or(7, |count| count.parse().expect("a number of repeats")),
+            costs: words.iter().any(|word| word == "--costs"),
         }
     }
 
@@ -128,6 +131,10 @@ impl Call {
             return None;
         }
         let known = KnownRun::named(name);
+        if self.costs {
+            self.costs_of_steps(name, &known, machine);
+            return None;
+        }
         let mut alone = Vec::new();
         for method in Method::all().filter(|method| self.asks_for(method.tableau.name)) {
             for setting in self.settings(method, known.until) {
@@ -163,6 +170,43 @@ impl Call {
             }
         }
         beside_the_best(name, &alone)
+    }
+
+    /// Prints what a step by series costs, in twelfths of a step of `dop853`: measured, and estimated.
+    fn costs_of_steps<M: Machine>(&self, name: &str, known: &KnownRun, machine: &M) {
+        let system = machine.prepare();
+        let Some(estimated) = system.series_cost() else {
+            return;
+        };
+        let start = start(known, &system);
+        for (tolerance, estimated) in TOLERANCES_OF_COSTS.into_iter().zip(estimated) {
+            // The beginning and the end of a run do not count: the rest is the difference of two runs.
+            let mut least = [[f64::INFINITY; 2]; 2];
+            let mut steps = [[0; 2]; 2];
+            for _ in 0..self.repeats {
+                for (k, method) in [Method::DOP853, Method::TAYLOR].into_iter().enumerate() {
+                    for (j, part) in [1.0, 5.0].into_iter().enumerate() {
+                        let simulation = Simulation::new(machine).method(method);
+                        let simulation = simulation.tolerance(tolerance).forget_steps();
+                        let simulation = simulation.until(part * known.until);
+                        let (seconds, run) = timing::seconds(|| simulation.run(start.clone()));
+                        let Ok(run) = run else { return };
+                        let statistics = run.statistics();
+                        least[k][j] = least[k][j].min(seconds);
+                        steps[k][j] = statistics.steps + statistics.rejected;
+                    }
+                }
+            }
+            let [explicit, series] = [0, 1].map(|k| {
+                1e9 * (least[k][1] - least[k][0]) / (steps[k][1] as f64 - steps[k][0] as f64)
+            });
+            let measured = 12.0 * series / explicit;
+            println!(
+                "| {name} | {tolerance:.0e} | {:.0} | {series:.0} | {measured:.1} | {estimated:.1} | {:.2} |",
+                explicit / 12.0,
+                estimated / measured
+            );
+        }
     }
 
     /// Seconds of the fastest of several runs, evaluations, and the error; with the method that a simulation chooses if none is given.
@@ -236,6 +280,9 @@ impl Call {
     }
 }
 
+/// A tolerance for series of each order.
+const TOLERANCES_OF_COSTS: [f64; 2] = [1e-4, 1e-9];
+
 const MOST_STEPS: usize = 2_000_000;
 
 /// The cost and the error of one setting.
@@ -303,8 +350,15 @@ fn start<S: System>(known: &KnownRun, system: &S) -> State<S::Coordinates> {
 
 fn main() {
     let call = Call::read();
-    println!("| run | method | tolerance or step | evaluations | microseconds | error |");
-    println!("| --- | --- | --: | --: | --: | --: |");
+    if call.costs {
+        println!(
+            "| run | tolerance | a twelfth of a step of `dop853` [ns] | a step by series [ns] | their ratio | estimated | estimated over measured |"
+        );
+        println!("| --- | --: | --: | --: | --: | --: | --: |");
+    } else {
+        println!("| run | method | tolerance or step | evaluations | microseconds | error |");
+        println!("| --- | --- | --: | --: | --: | --: |");
+    }
     let mut rows = Vec::new();
     let pendulum = DoublePendulum::default();
     rows.extend(call.race("double_pendulum_regular", &pendulum));
@@ -332,6 +386,9 @@ fn main() {
     rows.extend(call.race("closed_pendulum", &in_series::ClosedPendulum::default()));
     rows.extend(call.race("andrews_squeezer", &in_series::AndrewsSqueezer::default()));
     rows.extend(call.race("flyball_governor", &in_series::FlyballGovernor::default()));
+    if rows.is_empty() {
+        return;
+    }
     let heads = ERRORS.map(|error| format!(" {error:.0e} |")).concat();
     println!("\n| time over that of the best method, at error |{heads}");
     println!("| --- |{}", " --- |".repeat(ERRORS.len()));

@@ -1,4 +1,4 @@
-//! One try of an explicit step in numbers of any kind, which all steppers share.
+//! One attempt at an explicit step in numbers of any kind, which all steppers share.
 
 use crate::control;
 use crate::methods::{MAX_STAGES, Method};

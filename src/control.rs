@@ -38,7 +38,7 @@ pub(crate) struct Control {
     pub error_before: f64,
     /// Whether no step has been taken since the start, or since the accelerations jumped: see [`error_norm`].
     pub is_first: bool,
-    /// Whether the next try repeats a rejected step with another length.
+    /// Whether the next attempt repeats a rejected step with another length.
     pub is_retry: bool,
     pub work: Work,
 }
@@ -100,7 +100,7 @@ impl Control {
         self.work.steps += 1;
     }
 
-    /// Rejects a step and sets the length of the next try. Returns whether that is long enough.
+    /// Rejects a step and sets the length of the next attempt. Returns whether that is long enough.
     pub fn reject(&mut self, next: f64, least: f64) -> bool {
         self.step = next;
         self.work.rejected += 1;
@@ -172,7 +172,7 @@ pub(crate) fn growth(method: &Method, error: f64, error_before: f64, is_first: b
     (SAFETY * rough_exp2(logarithm)).clamp(shrink, grow)
 }
 
-/// The factor for the length of the next try after one that was rejected.
+/// The factor for the length of the next attempt after one that was rejected.
 pub(crate) fn reduction(method: &Method, error: f64, is_first: bool) -> f64 {
     let (shrink, _) = method.tableau.step_change;
     (SAFETY * rough_power(error, -error_exponent(method, is_first))).max(shrink)

@@ -89,13 +89,10 @@ struct Worst {
 /// Returns `None` if there is nothing to check: no accelerations, or none that are finite.
 fn worst<S: System>(system: &S, at: At<'_, S>) -> Option<Worst> {
     let equations = Equations::at(system, at)?;
-    let n = equations.inertia.len();
+    let n = equations.inertia.as_slice().len();
     let m = equations.constraint_bias.len();
-    let [of_mass, of_constraints] = conditions(
-        equations.mass.as_slice(),
-        &equations.inertia,
-        &equations.matrix,
-    );
+    let inertia = equations.inertia.as_slice();
+    let [of_mass, of_constraints] = conditions(&equations.mass, inertia, &equations.matrix);
     let tolerance = TOLERANCE * (n + m) as f64 * of_constraints;
     let mut worst = Worst {
         row: String::new(),
@@ -144,13 +141,13 @@ struct Equations<S: System> {
     a: S::Vector,
     mass: S::Matrix,
     /// `f + Gᵀ λ + τᵀ F`, and the sizes of its terms.
-    right: Vec<f64>,
-    right_sizes: Vec<f64>,
+    right: S::Vector,
+    right_sizes: S::Vector,
     /// `G` and `γ`.
     matrix: Vec<f64>,
     constraint_bias: Vec<f64>,
     /// `√Mᵢᵢ`.
-    inertia: Vec<f64>,
+    inertia: S::Vector,
     /// `Σⱼ √Mⱼⱼ |aⱼ| + |fⱼ|/√Mⱼⱼ`, by which rows round off in one another.
     spread: f64,
 }
@@ -189,33 +186,32 @@ impl<S: System> Equations<S> {
         let mut slips = vec![0.0; k * n];
         system.slip_matrix(t, q, &mut slips);
 
-        let sizes = [applied.as_slice(), bias.as_slice()];
-        let mut right: Vec<f64> = forces.as_slice().to_vec();
-        let mut right_sizes: Vec<f64> = (0..n)
-            .map(|i| right[i].abs() + sizes[0][i].abs() + sizes[1][i].abs())
-            .collect();
+        let mut right_sizes = q.zeros_like();
+        let [of_right, of_sizes] = [&mut forces, &mut right_sizes].map(|of| of.as_mut_slice());
+        for (i, size) in of_sizes.iter_mut().enumerate() {
+            let terms = [of_right[i], applied.as_slice()[i], bias.as_slice()[i]];
+            *size = terms[0].abs() + terms[1].abs() + terms[2].abs();
+        }
         let rows = matrix.chunks_exact(n).zip(&multipliers);
         let friction_forces = contacts.iter().map(|contact| &contact.friction);
         for (row, force) in rows.chain(slips.chunks_exact(n).zip(friction_forces)) {
             for i in 0..n {
-                right[i] += row[i] * force;
-                right_sizes[i] += (row[i] * force).abs();
+                of_right[i] += row[i] * force;
+                of_sizes[i] += (row[i] * force).abs();
             }
         }
-        let diagonal = |i: usize| mass.as_slice()[i * n + i];
-        let inertia: Vec<f64> = (0..n).map(|i| sqrt(diagonal(i).max(0.0))).collect();
-        let of_coordinate = |j: usize| {
-            if inertia[j] > 0.0 {
-                inertia[j] * a.as_slice()[j].abs() + right_sizes[j] / inertia[j]
-            } else {
-                0.0
+        let mut inertia = q.zeros_like();
+        let mut spread = 0.0;
+        for (j, of_row) in inertia.as_mut_slice().iter_mut().enumerate() {
+            *of_row = sqrt(mass.as_slice()[j * n + j].max(0.0));
+            if *of_row > 0.0 {
+                spread += *of_row * a.as_slice()[j].abs() + of_sizes[j] / *of_row;
             }
-        };
-        let spread = (0..n).map(of_coordinate).sum();
+        }
         Some(Self {
             a,
             mass,
-            right,
+            right: forces,
             right_sizes,
             matrix,
             constraint_bias,
@@ -226,26 +222,28 @@ impl<S: System> Equations<S> {
 
     /// Row `i` of `M a = f + Gᵀ λ + τᵀ F`.
     fn of_coordinate(&self, i: usize) -> Row {
-        let (n, mass) = (self.inertia.len(), self.mass.as_slice());
+        let inertia = self.inertia.as_slice();
+        let (n, mass) = (inertia.len(), self.mass.as_slice());
         let row = mass[i * n..][..n].iter().zip(self.a.as_slice());
         let left: f64 = row.clone().map(|(m, a)| m * a).sum();
         let own: f64 = row.map(|(m, a)| (m * a).abs()).sum();
         Row {
-            residual: left - self.right[i],
-            terms: own + self.right_sizes[i] + self.inertia[i] * self.spread,
+            residual: left - self.right.as_slice()[i],
+            terms: own + self.right_sizes.as_slice()[i] + inertia[i] * self.spread,
         }
     }
 
     /// Row `k` of `G a = γ`.
     fn of_constraint(&self, k: usize) -> Row {
-        let (n, a) = (self.inertia.len(), self.a.as_slice());
+        let (inertia, a) = (self.inertia.as_slice(), self.a.as_slice());
+        let n = inertia.len();
         let row = &self.matrix[k * n..][..n];
         let left: f64 = row.iter().zip(a).map(|(g, a)| g * a).sum();
         let mut terms = self.constraint_bias[k].abs();
         for j in 0..n {
             terms += (row[j] * a[j]).abs();
-            if self.inertia[j] > 0.0 {
-                terms += (row[j] / self.inertia[j]).abs() * self.spread;
+            if inertia[j] > 0.0 {
+                terms += (row[j] / inertia[j]).abs() * self.spread;
             }
         }
         Row {
@@ -283,14 +281,15 @@ fn solve<S: System>(
 
 /// Bounds on the amplification of round-off by elimination, for the mass matrix and for the constraints: the
 /// inverse squares of the shortest part of a row of unit length that is orthogonal to those before it.
-fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
+fn conditions<M: Vector>(mass: &M, inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
     let n = inertia.len();
     // Some coordinate has no inertia of its own and is held by the constraints; the amplification is not analysed then.
     const UNKNOWN: [f64; 2] = [1e4; 2];
     if inertia.contains(&0.0) {
         return UNKNOWN;
     }
-    let mut lower = vec![0.0; n * n];
+    let (mass, mut lower) = (mass.as_slice(), mass.zeros_like());
+    let lower = lower.as_mut_slice();
     let mut of_mass = 1.0_f64;
     for i in 0..n {
         for j in 0..=i {
@@ -306,10 +305,10 @@ fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
             }
         }
     }
-    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut basis: Vec<f64> = Vec::new();
+    let mut y = vec![0.0; if matrix.is_empty() { 0 } else { n }];
     let mut of_constraints = 1.0_f64;
     for row in matrix.chunks_exact(n) {
-        let mut y = vec![0.0; n];
         for i in 0..n {
             let known: f64 = (0..i).map(|k| lower[i * n + k] * y[k]).sum();
             y[i] = (row[i] / inertia[i] - known) / lower[i * n + i];
@@ -317,14 +316,14 @@ fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
         let length = |y: &[f64]| sqrt(y.iter().map(|y| y * y).sum());
         let norm = length(&y);
         // Twice: a short remainder is orthogonal to fewer digits.
-        for known in basis.iter().chain(&basis) {
+        for known in basis.chunks_exact(n).chain(basis.chunks_exact(n)) {
             let along: f64 = known.iter().zip(&y).map(|(e, y)| e * y).sum();
             y.iter_mut().zip(known).for_each(|(y, e)| *y -= along * e);
         }
         let left = length(&y);
         if left > DEPENDENT * norm {
             of_constraints = of_constraints.max((norm / left) * (norm / left));
-            basis.push(y.iter().map(|y| y / left).collect());
+            basis.extend(y.iter().map(|y| y / left));
         }
     }
     [of_mass, of_constraints]

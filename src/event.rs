@@ -442,7 +442,7 @@ impl<M: Machine> Watch<'_, M> {
         self.look_at_fractions((states, known), end, observed_system, stepper)
     }
 
-    /// Looks exactly where there may be events of the last step, and tells the fraction of each that it `found`, with the sign before it.
+    /// Evaluates the motion where there may be events of the last step, and calls `found` with the fraction of each event and the sign before it.
     fn locate<L: InputLaw<M::System>, A: Quadratures<M::System>>(
         &mut self,
         (places, ending): (Places, Option<f64>),

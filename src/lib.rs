@@ -4,8 +4,8 @@
 //! A [`System`] is the equations of motion of a machine, a [`Machine`] its parameters. [`Simulation`] integrates them and returns a
 //! [`Solution`]: the state at every instant, events, and the energy balance. A [`Stepper`] takes single steps and needs no allocator.
 //!
-//! The runtime knows nothing of the macro. A crate waits for the macros that it re-exports, and for all that these are made of: if the
-//! runtime did so, it could not be compiled beside the compiler of specs.
+//! The runtime does not depend on the macro. Cargo compiles a crate after the macros that it re-exports and after all crates that these are
+//! made of, so the runtime could otherwise not be compiled at the same time as the compiler of specs.
 #![no_std]
 
 #[cfg(feature = "std")]
@@ -35,6 +35,7 @@ mod inputs;
 mod interpolant;
 mod lanes;
 mod linearize;
+mod machine;
 mod math;
 pub mod methods;
 mod quantity;
@@ -58,6 +59,10 @@ pub mod interpreted;
 
 #[cfg(feature = "nalgebra")]
 pub mod matrices;
+
+#[cfg(feature = "text")]
+#[doc(hidden)]
+pub mod files;
 
 #[cfg(feature = "std")]
 mod equations;
@@ -114,6 +119,7 @@ pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw, InputLawIn}
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
 pub use linearize::{Differentiate, Linearize};
+pub use machine::{Coordinates, Inputs, Machine, Outputs};
 pub use methods::{FIXED_STEP_METHODS, METHODS, MOREAU, Method, RADAU_OF_HIGH_ORDER, TAYLOR};
 pub use piece::{NoPiece, Piece};
 pub use quantity::{Assumption, Constraint, Quantity, State};
@@ -121,7 +127,7 @@ pub use singular::{Pivot, Singular};
 pub use step_error::StepError;
 pub use step_number::{Real, StepNumber};
 pub use stepper::{ControlledStepper, Stepper, StepperBuilder};
-pub use system::{Coordinates, Inputs, MOST_CONTACTS, Machine, Outputs, Staged, System};
+pub use system::{MOST_CONTACTS, Staged, System};
 pub use system_in::{MachineIn, SystemIn};
 pub use tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 pub use unilateral::{
@@ -153,6 +159,8 @@ pub use observation::Observation;
 pub use phases::{ContactPhase, PhaseCause};
 #[cfg(feature = "std")]
 pub use roots::extremes;
+#[cfg(feature = "std")]
+pub use run::in_pieces::{PreparedRun, RunInPieces};
 #[cfg(feature = "std")]
 pub use sensitivities::{Sensitive, SensitiveSystem, Varied};
 #[cfg(feature = "std")]

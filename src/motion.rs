@@ -5,7 +5,7 @@ use crate::{Coordinates, Error, Inputs, Machine, State, System};
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 
 /// The motion within one step of a run, which [`Simulation::each_step`](crate::Simulation::each_step) passes to its observer: the
-/// continuous extension of the method, projected onto the constraints.
+/// dense output of the method, projected onto the constraints.
 pub trait StepMotion<M: Machine> {
     /// Time at its beginning and at its end, in s.
     fn span(&self) -> [f64; 2];

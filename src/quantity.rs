@@ -1,4 +1,4 @@
-//! What a machine tells of itself: states, named numbers, assumptions and constraints.
+//! What a machine consists of, by name: states, numbers, assumptions and constraints.
 
 /// Time, coordinates and rates of a machine.
 #[derive(Clone, Copy, Debug, PartialEq)]

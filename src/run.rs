@@ -11,6 +11,7 @@ mod flights;
 mod guides;
 mod handing_over;
 pub(crate) mod in_lanes;
+pub(crate) mod in_pieces;
 mod reasons;
 mod recording;
 pub(crate) mod sampled;
@@ -198,43 +199,24 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
 
     /// Begins the run at its start.
     pub(crate) fn begin<'r>(&'r mut self) -> Result<RunOf<'r, 'a, 'l, M>, Error> {
-        let Self {
-            law,
-            settings,
-            callbacks,
-            system,
-            start,
-            q,
-            v,
-            constraints,
-            until,
-            tolerance,
-            piece,
-            chosen,
-            is_resumed,
-            ended,
-            ..
-        } = self;
-        let (law, system, until, piece) = (&*law, &*system, *until, *piece);
+        let (system, start, q, v) = (&self.system, &self.start, &self.q, &self.v);
+        let (until, piece) = (self.until, self.piece);
+        let (settings, callbacks) = (&mut self.settings, &mut self.callbacks);
+        let chosen = &mut self.chosen;
         let quadratures = settings.energy_balance.then(EnergyIntegrals::default);
         let sampling = callbacks.sampled.as_ref().map(|of| of.begin(system));
         let sampled_inputs = sampling.is_some().then(|| system.default_inputs());
         let law = LawInPiece {
-            law,
+            law: &self.law,
             sampled: sampled_inputs.clone(),
             piece,
         };
         let model = Model {
             system,
             observed_system: ObservedSystem { system, law },
-            start: (start.t, &*q),
+            start: (start.t, q),
         };
-        if let Some((_, assumption)) = model.ended_assumption((start.t, q.clone(), v.clone())) {
-            return Err(Error::AssumptionEnded {
-                assumption,
-                t: start.t,
-            });
-        }
+        model.check_assumptions((start.t, q.clone(), v.clone()))?;
         let has_contacts = system.unilateral_contacts().len() != 0;
         let flies_by_series = has_contacts && settings.method.kind == MethodKind::Series;
         let begun = |mut method: &'static Method| {
@@ -249,15 +231,15 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 model.observed_system.law.clone(),
                 quadratures.clone(),
                 method,
-                tolerance.clone(),
-                ((start.t, q.clone(), v.clone()), constraints.clone()),
+                self.tolerance.clone(),
+                ((start.t, q.clone(), v.clone()), self.constraints.clone()),
                 until,
             );
             stepper.map(Box::new)
         };
         let begun = begun_by_choice(begun, &mut settings.method, chosen);
         let mut stepper = begun.map_err(|error| model.explain(error, q, v))?;
-        if !*is_resumed {
+        if !self.is_resumed {
             let (t, u) = (start.t, stepper.inputs());
             check_equations(system, At { t, q, v, u })?;
         }
@@ -268,10 +250,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         if let Some(beginning) = *chosen {
             stepper.count_evaluations(beginning.evaluations);
         }
-        let choosing = match *chosen {
-            Some(choice) => Choosing::begun(start.t, choice, !has_contacts, settings.one_of),
-            None => Choosing::none(),
-        };
+        let begun = |choice| Choosing::begun(start.t, choice, !has_contacts, settings.one_of);
+        let choosing = chosen.map_or_else(Choosing::none, begun);
         let mut run = Box::new(Run {
             model,
             stepper,
@@ -279,6 +259,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             start: start.t,
             until,
             stop: until,
+            most_steps: settings.max_steps,
             sampling,
             next_step: None,
             activity: activity(system, settings),
@@ -290,7 +271,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             record: Record::begun(settings, start, sampled_inputs, piece),
             settings,
         });
-        run.begin_at(start, ended.as_deref())?;
+        run.begin_at(start, self.ended.as_deref())?;
         Ok(run)
     }
 }
@@ -334,6 +315,8 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
     until: f64,
     /// Where the stepper stops next: where the inputs are not smooth, at a sample or a delayed action of a controller, or at the end.
     stop: f64,
+    /// The largest number of steps of the run so far, and to its end.
+    most_steps: usize,
     /// The inputs of a sampled controller, if there is one.
     sampling: Option<Sampling<Inputs<M>>>,
     /// The length of the step within which the run ended at an event.
@@ -518,7 +501,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Checks that one more step may be taken.
     #[inline(always)]
     fn check_count(&self) -> Result<(), Error> {
-        if self.stepper.work().steps == self.settings.max_steps {
+        if self.stepper.work().steps == self.most_steps {
             Err(Error::TooManySteps {
                 steps: self.settings.max_steps,
                 t: self.stepper.t(),

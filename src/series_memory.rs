@@ -3,14 +3,23 @@
 use core::fmt;
 
 #[cfg(feature = "std")]
-use std::{any::Any, boxed::Box};
+use std::{any::Any, boxed::Box, cell::Cell, thread_local};
+
+#[cfg(feature = "std")]
+type Lists = Box<dyn Any + Send + Sync>;
+
+#[cfg(feature = "std")]
+thread_local! {
+    /// What the last run of this thread has left, for the next one: to allocate and clear it takes as long as a step of a small machine.
+    static LEFT: Cell<Option<Lists>> = const { Cell::new(None) };
+}
 
 /// What the series of a machine writes while it is computed: a value of a type of the machine's own, made once. Clearing it in each step would take a
-/// twentieth of the step.
+/// twentieth of the step. What it holds before does not matter, so that it may be of another run.
 #[derive(Default)]
 pub struct SeriesMemory {
     #[cfg(feature = "std")]
-    lists: Option<Box<dyn Any + Send + Sync>>,
+    lists: Option<Lists>,
 }
 
 impl SeriesMemory {
@@ -19,7 +28,7 @@ impl SeriesMemory {
     #[inline(always)]
     pub fn lists<L: Default + Send + Sync + 'static>(&mut self) -> Option<&mut L> {
         if !self.lists.as_ref().is_some_and(|lists| lists.is::<L>()) {
-            self.lists = Some(Box::new(L::default()));
+            self.lists = Some(left::<L>().unwrap_or_else(|| Box::new(L::default())));
         }
         self.lists.as_mut()?.downcast_mut()
     }
@@ -29,6 +38,24 @@ impl SeriesMemory {
     #[inline(always)]
     pub fn lists<L: Default + Send + Sync + 'static>(&mut self) -> Option<&mut L> {
         None
+    }
+}
+
+/// What an earlier run of this thread has left, if it is of this type.
+#[cfg(feature = "std")]
+#[cold]
+fn left<L: 'static>() -> Option<Lists> {
+    let left = LEFT.try_with(Cell::take).ok().flatten();
+    left.filter(|lists| lists.is::<L>())
+}
+
+#[cfg(feature = "std")]
+impl Drop for SeriesMemory {
+    fn drop(&mut self) {
+        if let Some(lists) = self.lists.take() {
+            // Where the thread ends, there is no next run.
+            let _ = LEFT.try_with(|left| left.set(Some(lists)));
+        }
     }
 }
 

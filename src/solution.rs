@@ -33,7 +33,7 @@ use crate::{
 
 /// The result of a run: the state of the machine at every instant, and its events.
 ///
-/// Between the ends of a step the motion is as accurate as at them: [`at`](Self::at) evaluates the continuous extension of the method,
+/// Between the ends of a step the motion is as accurate as at them: [`at`](Self::at) evaluates the dense output of the method,
 /// which is kept unless [`forget_steps`](crate::Simulation::forget_steps) is called.
 pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) law: L,
@@ -217,7 +217,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
 
     /// The energies at several times, if the simulation kept the energy balance; cheapest if the times are sorted.
     ///
-    /// Work and dissipation since the beginning of a step are integrated over its continuous extension.
+    /// Work and dissipation since the beginning of a step are integrated over its dense output.
     pub fn energies_at_each(
         &self,
         times: impl IntoIterator<Item = f64>,

@@ -753,7 +753,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
     }
 
-    /// The continuous extension of the last step: the motion between its ends.
+    /// The dense output of the last step: the motion between its ends.
     ///
     /// It costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the others. The polynomials satisfy the
     /// constraints at the ends of the step, and between them to the accuracy of the method; [`project`](Self::project) removes the rest.

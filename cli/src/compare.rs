@@ -12,7 +12,7 @@ use crate::drawing::{self, Curve, Pane};
 use crate::failure::Failure;
 use crate::modes::number;
 use crate::numbers::shortest;
-use crate::output::{self, Destination, SVG, TABLE, keep_apart};
+use crate::output::{self, Destination, TABLE, keep_apart};
 use crate::runs::{self, Columns, Options, Quantity, SampleInstants, factor, header};
 use crate::table;
 
@@ -36,12 +36,9 @@ struct Compared {
 /// # Errors
 /// If a spec, a table or the call is invalid, or if the runs differ by more than `--within`.
 pub fn run(call: &call::Compare) -> Result<(), Failure> {
-    let files = [
-        Destination::of("--out", call.out.as_ref(), TABLE)?,
-        Destination::of("--plot", call.plot.as_ref(), SVG)?,
-    ];
+    let out = (call.out.as_ref(), TABLE);
+    let files = Destination::out_and_plot(out, call.plot.as_ref(), call.runs.json)?;
     let all: Vec<&Destination> = files.iter().flatten().collect();
-    output::keep_document_apart(all.iter().copied(), call.runs.json)?;
     let read = [
         (call.first.as_path(), "the first run"),
         (call.second.as_path(), "the second run"),

@@ -203,7 +203,7 @@ fn failure(failed: Failed) -> Failure {
     match failed {
         Failed::NoStart(why) => {
             let why = why.replace("`max_steps`", "--max-steps");
-            Failure::Run(format!("there is no motion where the search begins: {why}"))
+            Failure::Run(format!("the search cannot begin from these values: {why}"))
         }
         Failed::Unsettled => {
             Failure::Run("the standard deviations do not converge: give them by --sigma".to_owned())

@@ -8,6 +8,7 @@ mod archive;
 mod compile;
 mod dependencies;
 mod description;
+mod run;
 mod tables;
 mod units;
 mod variables;
@@ -17,6 +18,7 @@ use std::path::Path;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, Simulation, System, Warning};
+use lagrangian_emit::names::word;
 use lagrangian_languages::c::uniform::{self, Derivatives};
 use lagrangian_mechanics::{Compiled, Unproved};
 use lagrangian_program::Program;
@@ -31,7 +33,7 @@ use crate::output::{self, Destination, UNIT, keep_apart, keep_document_apart};
 use crate::progress;
 use crate::reading::{self, Reading};
 use archive::Entry;
-use variables::Variables;
+use variables::{Variables, is_word};
 
 /// A version of the standard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,17 +129,52 @@ struct Unit<'a> {
     has_derivatives: bool,
     /// A token that differs between machines.
     token: String,
+    /// The run in the unit, if the machine moves only by one.
+    run: Option<UnitRun>,
+}
+
+/// The run of a unit.
+struct UnitRun {
+    /// The text of its crate.
+    text: String,
+    /// The names of its contacts.
+    contacts: Vec<String>,
+}
+
+impl UnitRun {
+    fn new(compiled: &Compiled<'_>, machine: &InterpretedMachine, method: UnitMethod) -> UnitRun {
+        let contacts = run::contacts(&machine.prepare());
+        UnitRun {
+            text: run::text(compiled, method, contacts.len()),
+            contacts,
+        }
+    }
+}
+
+/// The variables of a unit, with the outputs of the call.
+fn variables(
+    call: &call::Fmu,
+    program: &Program,
+    run: Option<&UnitRun>,
+) -> Result<Variables, Failure> {
+    let contacts = run.map_or(&[][..], |run| &run.contacts);
+    let variables = Variables::new(program, &call.events, contacts);
+    match &call.outputs {
+        None => Ok(variables),
+        Some(call::Names(names)) => variables.with_outputs(names, unknown_output),
+    }
 }
 
 /// Refuses options that have no effect.
 fn check_options(call: &call::Fmu) -> Result<(), Failure> {
-    let kinds = call.kind.iter().map(|kind| kind.name());
+    let kinds = call.kind.iter().flatten().map(|kind| kind.name());
     call::refuse_twice("--kind", kinds).map_err(Failure::Call)?;
     if let Some(call::Names(names)) = &call.outputs {
         let names = names.iter().map(String::as_str);
         call::refuse_twice("--outputs", names).map_err(Failure::Call)?;
     }
-    if call.method.is_some() && !call.kind.contains(&UnitKind::CoSimulation) {
+    let is_without = |kinds: &Vec<UnitKind>| !kinds.contains(&UnitKind::CoSimulation);
+    if call.method.is_some() && call.kind.as_ref().is_some_and(is_without) {
         return Err(Failure::Call(
             "--method is that of co-simulation; in model exchange the importer integrates".into(),
         ));
@@ -174,36 +211,43 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         reading.add_formula(&format!("--event {}", event.name), &event.value, None);
     }
     let compiled = reading.compile_beside(&dag, [&out])?;
-    check_sections(&compiled.program)?;
+    let has_run = run::is_needed(&compiled.program);
+    let kinds = kinds(call, has_run)?;
     check_events(&compiled, &call.events)?;
     let machine = reading::machine(&compiled, &start_options)?;
     let start = start(&machine, &start_options)?;
     check_defaults(&compiled.program, &machine)?;
-    check_constraints(&machine, &start_options, &call.spec.path)?;
-    let variables = Variables::new(&compiled.program, &call.events);
-    let variables = match &call.outputs {
-        None => variables,
-        Some(call::Names(names)) => variables.with_outputs(names, unknown_output)?,
+    if !has_run {
+        check_constraints(&machine, &start_options, &call.spec.path)?;
+    }
+    let method = call.method.unwrap_or(UnitMethod::Dop853);
+    let run = has_run.then(|| UnitRun::new(&compiled, &machine, method));
+    let variables = variables(call, &compiled.program, run.as_ref())?;
+    let derivatives = if has_run {
+        None
+    } else {
+        derivatives(&compiled)?
     };
-    let derivatives = derivatives(&compiled)?;
     let text = machine_text(&compiled, derivatives.as_ref(), call);
     let mut unit = Unit {
         version,
-        kinds: &call.kind,
+        kinds: &kinds,
         program: &compiled.program,
         machine: &machine,
         inputs: machine.prepare().default_inputs().values,
         start,
         tolerance: call.tolerance,
-        method: call.method.unwrap_or(call::UnitMethod::Dop853),
+        method,
         identifier: identifier(&call.out),
         variables,
         events: &call.events,
         has_derivatives: derivatives.is_some(),
         token: String::new(),
+        run,
     };
     let tables = tables::text(&unit);
-    unit.token = tables::token(&[&text, &tables, unit.method.tableau()]);
+    let of_run = unit.run.as_ref().map_or("", |run| &run.text);
+    unit.token = tables::token(&[&text, &tables, unit.method.tableau(), of_run]);
     let sources = sources(&unit, &format!("{text}{tables}"));
     let libraries = if call.sources_only {
         Vec::new()
@@ -226,10 +270,12 @@ fn entries(
     libraries: &[(compile::Platform, Vec<u8>)],
 ) -> Vec<Entry> {
     let mut entries = vec![Entry::text("modelDescription.xml", description::text(unit))];
+    // An importer cannot compile a run.
+    let sources = if unit.has_run() { &[] } else { sources };
     for (name, content) in sources {
         entries.push(Entry::text(&format!("sources/{name}"), content.clone()));
     }
-    if unit.version == Version::Three {
+    if unit.version == Version::Three && !unit.has_run() {
         entries.push(Entry::text(
             "sources/buildDescription.xml",
             description::of_build(unit),
@@ -300,30 +346,46 @@ fn count(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
-/// Refuses machines whose motion depends on more than the state and its derivatives.
-fn check_sections(program: &Program) -> Result<(), Failure> {
-    let why = if let Some(contact) = program.contacts.first() {
-        format!(
-            "`{contact}` of `sliding` sticks or slides, which is a state of the run that a unit cannot have"
-        )
-    } else if let Some(contact) = program.unilateral.first() {
-        format!(
-            "whether `{}` of `contacts` is closed is a state of the run that a unit cannot have",
-            contact.name
-        )
-    } else {
-        return Ok(());
-    };
-    Err(Failure::run(format!(
-        "no unit can be built of this machine: {why}"
-    )))
+/// The interfaces of a unit. Of a machine with contacts or guides, whose motion depends on more than its state, it has only co-simulation, in which it
+/// makes a run.
+fn kinds(call: &call::Fmu, has_run: bool) -> Result<Vec<UnitKind>, Failure> {
+    let default = || [UnitKind::ModelExchange, UnitKind::CoSimulation].to_vec();
+    if !has_run {
+        return Ok(call.kind.clone().unwrap_or_else(default));
+    }
+    let why = "which contacts are closed and what sticks is a state of a run, which a unit of a machine with `contacts` or `sliding` makes itself";
+    if call
+        .kind
+        .iter()
+        .flatten()
+        .any(|kind| *kind == UnitKind::ModelExchange)
+    {
+        return Err(Failure::run(format!(
+            "--kind me: {why}; leave it out, or write --kind cs for co-simulation"
+        )));
+    }
+    if call.sources_only {
+        return Err(Failure::run(format!(
+            "--sources-only: {why}, and the run is no C that an importer could compile; leave it out"
+        )));
+    }
+    if let Some(target) = call.target.first() {
+        return Err(Failure::run(format!(
+            "--target {target}: {why}, and the run is compiled only for the platform of the command; leave it out, or call the command there"
+        )));
+    }
+    if let Some(event) = call.events.first() {
+        return Err(Failure::run(format!(
+            "--event {}: {why}, and the run watches its contacts only; make the formula an output, whose sign the importer can watch at communication points",
+            event.name
+        )));
+    }
+    Ok(vec![UnitKind::CoSimulation])
 }
 
 /// Refuses a name that cannot be part of a variable name: the count of an event is `event.NAME`.
 fn check_name(name: &str) -> Result<(), Failure> {
-    let is_word = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
-        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    if is_word {
+    if is_word(name) {
         Ok(())
     } else {
         Err(Failure::Call(format!(
@@ -479,10 +541,7 @@ fn sources(unit: &Unit<'_>, machine: &str) -> Vec<(&'static str, String)> {
 /// The name of a file as a C identifier.
 fn identifier(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let letters = stem
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
-    let letters: String = letters.collect();
+    let letters = word(&stem, |c| c.is_ascii_alphanumeric());
     if letters.starts_with(|c: char| c.is_ascii_digit()) || letters.is_empty() {
         format!("_{letters}")
     } else {

@@ -1,6 +1,6 @@
 //! `lagrangian library`: a machine as a shared library for C and languages that can call C.
 //!
-//! A single call of `rustc` compiles one file without dependencies: the module of the machine, the exports
+//! A single call of `rustc` compiles one file without dependencies: the module of the machine, the exported functions
 //! (`library/export.rs`), and the text of the required parts of the crates `lagrangian-scalar` and `lagrangian-native`.
 
 use std::ffi::OsString;
@@ -16,6 +16,7 @@ use lagrangian::native::text::{
 };
 use lagrangian::scalar::text::{KERNEL, LIB, REAL, SERIES};
 use lagrangian_emit as emit;
+use lagrangian_emit::names::word;
 use lagrangian_linear::starts::dependent_constraint;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{LONGEST_SCHEDULED, Program, Role, Slot};
@@ -72,8 +73,8 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     if !program.contacts.is_empty() || program.sizes().guides > 0 {
         return Err(Failure::run(
             "whether a contact sticks or slides is not a function of q and v alone: a library of a machine with \
-             `sliding` cannot be made; use a variant with a constraint in place of each guide, or run it with `lagrangian simulate` or the \
-             crate",
+             `sliding` cannot be made; use a variant with a constraint in place of each guide, or run it with `lagrangian simulate`, the \
+             crate, or a unit of `lagrangian fmu`, which C programs can call",
         ));
     }
     warn_of_constraints(&program);
@@ -406,10 +407,7 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
         "LAGRANGIAN_{}_H",
         emit::rust::module_name(name).to_uppercase()
     );
-    let guard: String = guard
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-        .collect();
+    let guard = word(&guard, |c| c.is_ascii_alphanumeric());
     let list = |slots: &[Slot]| {
         let mut lines = String::new();
         for (i, slot) in slots.iter().enumerate() {

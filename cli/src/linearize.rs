@@ -159,9 +159,7 @@ fn about_motion(
     let system = machine.prepare();
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     let units: Vec<&str> = system.coordinates().map(|q| q.unit).collect();
-    let modes::Reached { q, wanted, motion } = &reached;
-    let text = modes::text_of_place(&names, &units, q, wanted, motion);
-    Ok((model, text))
+    Ok((model, modes::text_of_place(&names, &units, &reached)))
 }
 
 /// The inputs and outputs that a call requests.

@@ -26,7 +26,7 @@ use crate::failure::Failure;
 pub use crate::numbers::number;
 use crate::numbers::shown_name;
 use crate::other_chart::{self, OtherChart};
-use crate::output::{self, Destination, SVG, TABLE, keep_apart};
+use crate::output::{self, Destination, TABLE, keep_apart};
 use crate::reading::{self, Reading};
 use crate::table;
 use vary::Trace;
@@ -47,11 +47,9 @@ struct Files {
 
 impl Files {
     fn new(call: &call::Modes) -> Result<Files, Failure> {
-        let files = Files {
-            out: Destination::of("--out", call.out.as_ref(), TABLE)?,
-            plot: Destination::of("--plot", call.plot.as_ref(), SVG)?,
-        };
-        output::keep_document_apart(files.all(), call.spec.json)?;
+        let out = (call.out.as_ref(), TABLE);
+        let [out, plot] = Destination::out_and_plot(out, call.plot.as_ref(), call.spec.json)?;
+        let files = Files { out, plot };
         keep_apart(files.all(), &[(&call.spec.path, "the spec")])?;
         Ok(files)
     }
@@ -78,7 +76,7 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let start = start(&machine, &call.search)?;
     let found = find_motion(&machine, start.clone(), &call.search);
     let found = found.map(|reached| (machine, reached));
-    let (machine, Reached { q, wanted, motion }) = other_chart::search(found, || {
+    let (machine, reached) = other_chart::search(found, || {
         let given = (&call.search.start, &call.search.keep);
         let chart = OtherChart::of(&compiled, cartesian, given, &start)?;
         let found = find_motion(&chart.machine, chart.start, &call.search);
@@ -87,11 +85,11 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let system = machine.prepare();
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
-        let result = as_json(&names, &motion);
+        let result = as_json(&names, &reached.motion);
         output::line(format_args!("{result:#}"));
     } else {
         let units: Vec<&str> = system.coordinates().map(|q| q.unit).collect();
-        output::text(&text(&names, &units, &q, &wanted, &motion));
+        output::text(&text(&names, &units, &reached));
     }
     Ok(())
 }
@@ -195,7 +193,8 @@ pub fn compiled<'d, 'a>(
     );
     let reading = Reading::open(spec)?.with_values(start);
     let mut cartesian = None;
-    let (compiled, _) = compile(reading, dag, files, with_sliding, |model| {
+    let refused = |model: &Model<'d>| !model.sliding().is_empty();
+    let (compiled, _) = compile(reading, dag, files, (refused, with_sliding), |model| {
         cartesian = model.cartesian.take();
         Ok(())
     })?;
@@ -214,21 +213,23 @@ pub fn compiled_with<'d, 'a>(
         "finding the {noun} of a machine with `sliding` requires derivatives of its motion, which do not exist where it begins to stick or to \
          slide; use a variant without friction, with a constraint in place of each guide"
     );
-    compile(reading, dag, files, with_sliding, change)
+    // Beside contacts, guides are followed from one change to the next as these are.
+    let refused = |model: &Model<'d>| !model.sliding().is_empty() && model.contacts.is_empty();
+    compile(reading, dag, files, (refused, with_sliding), change)
 }
 
-/// Compiles an opened spec; `change` modifies its model before it is derived. The message explains why `sliding` is not supported.
+/// Compiles an opened spec; `change` modifies its model before it is derived. The message explains why the `sliding` of a model that is `refused` is not supported.
 fn compile<'d, 'a>(
     mut reading: Reading,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
-    with_sliding: String,
+    (refused, with_sliding): (impl Fn(&Model<'d>) -> bool, String),
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
 ) -> Result<(Compiled<'d>, Sources), Failure> {
     let mut model = reading.model(dag);
     reading.keep_from(files)?;
     if let Some(model) = &model
-        && !model.sliding().is_empty()
+        && refused(model)
     {
         return Err(Failure::Run(with_sliding));
     }

@@ -23,7 +23,7 @@ use crate::linearize::{mat, npz};
 use crate::modes::{self, number};
 use crate::numbers::{self, after_number, by_name, shortest};
 use crate::other_chart::{self, OtherChart};
-use crate::output::{self, Destination, ORBIT, SVG, TABLE, keep_apart};
+use crate::output::{self, Destination, ORBIT, TABLE, keep_apart};
 use crate::reading::{self, Reading, name_error, places};
 use crate::recording::Run;
 use crate::runs;
@@ -64,12 +64,9 @@ struct Ready<'d> {
 /// If the spec or the call is invalid, or there is no orbit near the start.
 pub fn run(call: &call::Orbit) -> Result<(), Failure> {
     let endings = if call.along.is_some() { TABLE } else { ORBIT };
-    let files = [
-        Destination::of("--out", call.out.as_ref(), endings)?,
-        Destination::of("--plot", call.plot.as_ref(), SVG)?,
-    ];
+    let out = (call.out.as_ref(), endings);
+    let files = Destination::out_and_plot(out, call.plot.as_ref(), call.spec.json)?;
     let all: Vec<&Destination> = files.iter().flatten().collect();
-    output::keep_document_apart(all.iter().copied(), call.spec.json)?;
     keep_apart(all.iter().copied(), &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
     let (ready, cartesian) = prepare(call, &dag, &all)?;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lagrangian::interpreted::{InterpretedMachine, Named, TableFile};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, TableFile};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{InputLaw, Machine, Simulation, Solution, State, System};
 use lagrangian_analysis::Curve;
@@ -412,53 +412,26 @@ fn run_spec(
     let formulas = reading.formulas();
     let compiled = reading.compile_in_charts(&dag, files.iter().copied(), ChartUse::IfPossible);
     let compiled = compiled.map_err(inputs::as_call_failure)?;
+    let prepared = MachineInChart::new(compiled, &options.start, &runs.keep, ChartUse::IfPossible)?;
     let MachineInChart {
-        compiled,
-        machine,
-        start,
-        charts,
-        sources,
-        ..
-    } = MachineInChart::new(compiled, &options.start, &runs.keep, ChartUse::IfPossible)?;
+        compiled, machine, ..
+    } = &prepared;
     let output_count = compiled.model.outputs.len() - formulas;
     let mut numbers = output_count..;
-    let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(output_count));
+    let signals = signals::signals(&laws, machine, || numbers.next().unwrap_or(output_count));
     let signals = signals.map_err(Failure::Call)?;
-    let mut simulation = signals
-        .drive(Simulation::new(&machine), &machine)
+    let simulation = signals
+        .drive(Simulation::new(machine), machine)
         .tolerance(options.tolerance.unwrap_or(TOLERANCE))
         .method(method)
         .until(options.until)
         .max_steps(runs.max_steps.unwrap_or(STEPS))
         .energy_balance(true);
-    simulation = reading::keep(simulation, &runs.keep);
+    let simulation = reading::keep(simulation, &runs.keep);
     let interval = runs.every.unwrap_or(options.until / SAMPLES);
-    let width = simulate::width(&machine, output_count);
-    let mut period = None;
-    match looks {
-        SampleInstants::Even => {
-            simulate::check_samples("--every", interval, options.until, width)?;
-            simulation = simulation.every(interval).forget_steps();
-        }
-        SampleInstants::At(_) => {}
-        SampleInstants::Crossing(formula, direction, level) => {
-            check_crossing(formula, stage_of_last_output(&compiled))?;
-            let level =
-                level.and_then(|(name, value)| level_of(&machine, output_count, name, value));
-            let (place, level) = level.unwrap_or((compiled.model.outputs.len() - 1, 0.0));
-            simulation = simulation.event_on("crossing", direction.crossing(), move |seen| {
-                seen.outputs.values.get(place).copied().unwrap_or(f64::NAN) - level
-            });
-        }
-        SampleInstants::Period(formula) => {
-            check_period(formula, stage_of_last_output(&compiled))?;
-            let place = compiled.model.outputs.len() - 1;
-            let length = period_of(&machine, &start, place, "--every-period", formula)?;
-            simulate::check_samples("--every-period", length, options.until, width)?;
-            period = Some(length);
-        }
-    }
-    if let Some(charts) = &charts {
+    let instants = (looks, interval, options.until);
+    let (mut simulation, period) = with_instants(simulation, &prepared, output_count, instants)?;
+    if let Some(charts) = &prepared.charts {
         let marked_every = match looks {
             SampleInstants::Even => interval,
             // At instants that are not known before: then every mark is kept.
@@ -467,8 +440,9 @@ fn run_spec(
         simulation = simulation.each_step(move |step| charts.follow(step, marked_every));
     }
     progress::now("simulating");
+    let start = prepared.start.clone();
     let ran = simulation.run_interpreted(start).map_err(|error| {
-        let placed = Placed::of(&error, &compiled.model, &sources);
+        let placed = Placed::of(&error, &compiled.model, &prepared.sources);
         let message = || Failure::Run(verdict::message_of(&error));
         placed.map_or_else(message, |placed| Failure::Placed(Box::new(placed)))
     })?;
@@ -477,9 +451,49 @@ fn run_spec(
     }
     warn(&ran);
     let states = states(&ran, looks, period.unwrap_or(f64::INFINITY))?;
-    let recording = charts::record(&ran, &states, charts.as_ref());
+    let recording = charts::record(&ran, &states, prepared.charts.as_ref());
     progress::now(ANALYSING);
-    Ok(((ran, charts), recording))
+    Ok(((ran, prepared.charts), recording))
+}
+
+/// Adds what finds the instants of a recording to a run; the length of a period, if they are one apart. Even instants have this interval.
+fn with_instants<'a, L: InputLaw<InterpretedSystem>>(
+    simulation: Simulation<'a, InterpretedMachine, L>,
+    prepared: &MachineInChart<'_>,
+    output_count: usize,
+    (looks, interval, until): (&SampleInstants<'_>, f64, f64),
+) -> Result<(Simulation<'a, InterpretedMachine, L>, Option<f64>), Failure> {
+    let MachineInChart {
+        compiled,
+        machine,
+        start,
+        ..
+    } = prepared;
+    let width = simulate::width(machine, output_count);
+    match looks {
+        SampleInstants::Even => {
+            simulate::check_samples("--every", interval, until, width)?;
+            Ok((simulation.every(interval).forget_steps(), None))
+        }
+        SampleInstants::At(_) => Ok((simulation, None)),
+        SampleInstants::Crossing(formula, direction, level) => {
+            check_crossing(formula, stage_of_last_output(compiled))?;
+            let level =
+                level.and_then(|(name, value)| level_of(machine, output_count, name, value));
+            let (place, level) = level.unwrap_or((compiled.model.outputs.len() - 1, 0.0));
+            let simulation = simulation.event_on("crossing", direction.crossing(), move |seen| {
+                seen.outputs.values.get(place).copied().unwrap_or(f64::NAN) - level
+            });
+            Ok((simulation, None))
+        }
+        SampleInstants::Period(formula) => {
+            check_period(formula, stage_of_last_output(compiled))?;
+            let place = compiled.model.outputs.len() - 1;
+            let length = period_of(machine, start, place, "--every-period", formula)?;
+            simulate::check_samples("--every-period", length, until, width)?;
+            Ok((simulation, Some(length)))
+        }
+    }
 }
 
 /// The method of a run.

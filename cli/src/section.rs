@@ -7,7 +7,7 @@ use crate::call::{self, Direction};
 use crate::drawing::{self, Curve, Pane};
 use crate::failure::Failure;
 use crate::modes::number;
-use crate::output::{self, Destination, SVG, TABLE, keep_apart};
+use crate::output::{self, Destination, TABLE, keep_apart};
 use crate::runs::{self, Columns, Options, Quantity, SampleInstants};
 use crate::{simulate, table};
 
@@ -19,12 +19,9 @@ const SHOWN: usize = 10;
 /// # Errors
 /// If the spec, the table or the call is invalid, or the run fails.
 pub fn run(call: &call::Section) -> Result<(), Failure> {
-    let files = [
-        Destination::of("--out", call.out.as_ref(), TABLE)?,
-        Destination::of("--plot", call.plot.as_ref(), SVG)?,
-    ];
+    let out = (call.out.as_ref(), TABLE);
+    let files = Destination::out_and_plot(out, call.plot.as_ref(), call.part.runs.json)?;
     let all: Vec<&Destination> = files.iter().flatten().collect();
-    output::keep_document_apart(all.iter().copied(), call.part.runs.json)?;
     let points = points(call, &all)?;
     let shown = shown(call, &points)?;
     if let Some(file) = &files[0] {

@@ -22,7 +22,7 @@ use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::modes::{self, number};
 use crate::orbit::differentiate;
-use crate::output::{self, Destination, SVG, TABLE, keep_apart};
+use crate::output::{self, Destination, TABLE, keep_apart};
 use crate::reading::{self, Reading, places};
 use crate::runs::{header, warn};
 use crate::simulate::check_samples;
@@ -45,12 +45,9 @@ struct Column {
 /// # Errors
 /// If the spec or the call is invalid, or the run fails.
 pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
-    let files = [
-        Destination::of("--out", call.out.as_ref(), TABLE)?,
-        Destination::of("--plot", call.plot.as_ref(), SVG)?,
-    ];
+    let out = (call.out.as_ref(), TABLE);
+    let files = Destination::out_and_plot(out, call.plot.as_ref(), call.spec.json)?;
     let all: Vec<&Destination> = files.iter().flatten().collect();
-    output::keep_document_apart(all.iter().copied(), call.spec.json)?;
     keep_apart(all.iter().copied(), &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
     let reading = Reading::open(&call.spec)?.with_values(&call.start);

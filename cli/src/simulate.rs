@@ -155,13 +155,7 @@ impl Trouble<'_> {
 /// # Errors
 /// If the spec or the call is invalid, or the run fails. The part of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
-    let is_chosen = call.method == AUTO && call.precision == call::Precision::F64;
-    if call.one_of.is_some() && (!is_chosen || call.validated) {
-        return Err(Failure::Call(
-            "--one-of: only with --method auto, which chooses when to derive a series; other methods do not depend on the number of runs"
-                .into(),
-        ));
-    }
+    check_one_of(call)?;
     if call.precision == call::Precision::Dd {
         return precise::in_double_doubles(call);
     }
@@ -169,12 +163,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         return precise::validated(call);
     }
     let (tolerance, method) = (tolerance(call)?, method(call)?);
-    if call.tolerance.is_some() && has_no_tolerance(method) {
-        return Err(Failure::Call(format!(
-            "`{}` has no --tolerance: the length of its steps, --longest-step, determines the error",
-            call.method
-        )));
-    }
+    check_tolerance_is_used(call, method)?;
     let written = inputs::parse(&call.inputs)?;
     let files = Files::new(call, &written)?;
     let dag = Dag::new();
@@ -234,6 +223,29 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         global_error.as_ref(),
         &trouble,
     )
+}
+
+/// Refuses `--one-of` where the number of runs has no effect.
+fn check_one_of(call: &call::Simulate) -> Result<(), Failure> {
+    let is_chosen = call.method == AUTO && call.precision == call::Precision::F64;
+    if call.one_of.is_some() && (!is_chosen || call.validated) {
+        return Err(Failure::Call(
+            "--one-of: only with --method auto, which chooses when to derive a series; other methods do not depend on the number of runs"
+                .into(),
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses `--tolerance` with a method that has none.
+fn check_tolerance_is_used(call: &call::Simulate, method: &Method) -> Result<(), Failure> {
+    if call.tolerance.is_some() && has_no_tolerance(method) {
+        return Err(Failure::Call(format!(
+            "`{}` has no --tolerance: the length of its steps, --longest-step, determines the error",
+            call.method
+        )));
+    }
+    Ok(())
 }
 
 /// The tolerance of the call.

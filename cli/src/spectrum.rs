@@ -9,7 +9,7 @@ use crate::call;
 use crate::drawing::{self, Curve, Pane};
 use crate::failure::Failure;
 use crate::modes::number;
-use crate::output::{self, Destination, SVG, TABLE};
+use crate::output::{self, Destination, TABLE};
 use crate::runs::{self, Columns, Quantity, header};
 use crate::table;
 
@@ -25,12 +25,9 @@ struct SpectrumOf<'a> {
 /// # Errors
 /// If the spec, the table or the call is invalid, or the run fails.
 pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
-    let files = [
-        Destination::of("--out", call.out.as_ref(), TABLE)?,
-        Destination::of("--plot", call.plot.as_ref(), SVG)?,
-    ];
+    let out = (call.out.as_ref(), TABLE);
+    let files = Destination::out_and_plot(out, call.plot.as_ref(), call.part.runs.json)?;
     let all: Vec<&Destination> = files.iter().flatten().collect();
-    output::keep_document_apart(all.iter().copied(), call.part.runs.json)?;
     let columns = runs::one(&call.part, &all)?;
     let chosen = columns.chosen(&call.part.of, &call.part.run)?;
     let samples = Samples::of(&columns)?;

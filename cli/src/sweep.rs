@@ -58,7 +58,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         .path
         .extension()
         .is_some_and(|ending| ending == "json");
-    let mut plan = if is_plan {
+    let plan = if is_plan {
         read_plan(call)?
     } else {
         plan(call)?
@@ -74,25 +74,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         call::Engine::Jit => Engine::Jit,
     };
     if let Some(path) = &call.plan {
-        let to = Destination::new("--plan", path, &["json"])?;
-        keep_from(call, &plan, [&to])?;
-        let sweep = prepare(plan, engine)?;
-        plan = sweep.plan().clone();
-        plan.chunk = chunk_length(&sweep);
-        to.write_text(&(plan.to_json() + "\n"))?;
-        let (runs, chunks) = (plan.runs(), plan.chunks());
-        if call.spec.json {
-            let document =
-                json!({ "runs": runs, "chunks": chunks, "plan": path.display().to_string() });
-            output::line(format_args!("{document:#}"));
-        } else {
-            output::line(format_args!(
-                "{runs} runs in {chunks} chunks of {}, {}",
-                plan.chunk,
-                path.display()
-            ));
-        }
-        return Ok(());
+        return write_plan(call, plan, engine, path);
     }
     let out = Out::of(call, &plan)?;
     // A plan that is refused leaves no folder behind.
@@ -106,17 +88,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         folder.plan().map_err(failure)?
     };
     if let Some(known) = &known {
-        let mut differences = plan.differences(known);
-        if is_part && plan.chunk != known.chunk {
-            differences.push(format!("chunk: {}, was {}", plan.chunk, known.chunk));
-        }
-        if !differences.is_empty() {
-            let trouble = FolderError::OtherPlan(differences);
-            return Err(Failure::Call(format!(
-                "{}: {trouble}",
-                out.folder.display()
-            )));
-        }
+        check_same_plan(&plan, known, is_part, &out)?;
     }
     if let Some(chunk) = call.chunk {
         return one_chunk(&sweep, &folder, chunk, call.spec.json);
@@ -132,6 +104,45 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         }
     }
     all(call, &sweep, folder, &out)
+}
+
+/// Writes the plan of a call to a file.
+fn write_plan(call: &call::Sweep, plan: Plan, engine: Engine, path: &Path) -> Result<(), Failure> {
+    let to = Destination::new("--plan", path, &["json"])?;
+    keep_from(call, &plan, [&to])?;
+    let sweep = prepare(plan, engine)?;
+    let mut plan = sweep.plan().clone();
+    plan.chunk = chunk_length(&sweep);
+    to.write_text(&(plan.to_json() + "\n"))?;
+    let (runs, chunks) = (plan.runs(), plan.chunks());
+    if call.spec.json {
+        let document =
+            json!({ "runs": runs, "chunks": chunks, "plan": path.display().to_string() });
+        output::line(format_args!("{document:#}"));
+    } else {
+        output::line(format_args!(
+            "{runs} runs in {chunks} chunks of {}, {}",
+            plan.chunk,
+            path.display()
+        ));
+    }
+    Ok(())
+}
+
+/// Checks that a folder with chunks of a plan has those of this one; the length of its chunks matters only if a part is run.
+fn check_same_plan(plan: &Plan, known: &Plan, is_part: bool, out: &Out) -> Result<(), Failure> {
+    let mut differences = plan.differences(known);
+    if is_part && plan.chunk != known.chunk {
+        differences.push(format!("chunk: {}, was {}", plan.chunk, known.chunk));
+    }
+    if differences.is_empty() {
+        return Ok(());
+    }
+    let trouble = FolderError::OtherPlan(differences);
+    Err(Failure::Call(format!(
+        "{}: {trouble}",
+        out.folder.display()
+    )))
 }
 
 /// Makes the missing chunks, and joins them.
@@ -423,60 +434,21 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     if method != AUTO {
         methods::named_beside(method, &[AUTO])?;
     }
-    let path = call.spec.path.to_string_lossy();
-    let (_, text) = Disk
-        .read(&path, None)
-        .map_err(|error| Failure::Call(format!("cannot read {path}: {error}")))?;
     let dag = Dag::new();
-    let (mut sources, mut report) = (Sources::new(), Report::new());
-    let mut disk = Disk;
-    let mut files = lagrangian_sweep::plan::FileRecorder::new(&mut disk);
-    let constants = &call.spec.constants;
-    let spec = lagrangian_spec::parse(&mut sources, &path, &text, &mut report);
-    let model = Model::resolve(
-        spec.with_given(call.spec.given.iter().cloned()),
-        &dag,
-        constants,
-        &mut files,
-        &mut sources,
-        &mut report,
-    );
-    let read = files.read;
-    let Some(model) = model else {
-        return Err(Failure::Spec(Box::new((report, sources))));
-    };
-    diagnostics::print(&report, &sources);
-    let constants = constants
-        .iter()
-        .map(|(name, value)| (name.clone(), value.to_string()));
-    let values = |option: &str, list: &[Assignment], name: &dyn Fn(&str) -> String| {
-        let value = |set: &Assignment| {
-            let unit = lagrangian_sweep::unit_of(&model, &name(&set.name))
-                .map_err(|why| Failure::Call(format!("{option} {}: {why}", set.name)))?;
-            let value = set.value(option, &unit).map_err(Failure::Call)?;
-            Ok::<_, Failure>((set.name.clone(), value))
-        };
-        list.iter().map(value).collect::<Result<Vec<_>, _>>()
-    };
+    let (spec, model) = read_spec(call, &dag)?;
     let start = &call.start;
-    let set = values("--set", &start.parameters, &str::to_owned)?;
-    let starts = values("--start", &start.coordinates, &|name| {
+    let set = values(&model, ("--set", &start.parameters), str::to_owned)?;
+    let starts = values(&model, ("--start", &start.coordinates), |name| {
         format!("start({name})")
     })?;
-    let rates = values("--rate", &start.rates, &|name| format!("rate({name})"))?;
+    let rates = values(&model, ("--rate", &start.rates), |name| {
+        format!("rate({name})")
+    })?;
     let keep = reading::kept_names(&call.keep).map(<[String]>::to_vec);
     if keep.is_some() {
         check_kept(&model, &call.keep)?;
     }
-    let events = [(&call.events, false), (&call.ends, true)];
-    let events = events.into_iter().flat_map(|(list, ends)| {
-        list.iter().map(move |event| Watch {
-            name: event.name.clone(),
-            formula: event.value.clone(),
-            ends,
-        })
-    });
-    let events: Vec<Watch> = events.collect();
+    let events = watches(call);
     let recorded = reductions::recorded(&call.record)?;
     if call.after.is_some() && call.reductions.is_empty() && recorded.events.is_empty() {
         return Err(Failure::Call(
@@ -487,13 +459,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     check_events(&reduce, &model)?;
     Ok(Plan {
         version: VERSION,
-        spec: SpecText {
-            name: path.clone().into_owned(),
-            text,
-            files: read,
-            constants: constants.collect(),
-            given: Vec::new(),
-        },
+        spec,
         set,
         start: starts,
         rate: rates,
@@ -512,6 +478,71 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
         design: design::factors(call, &model)?,
         chunk: 1,
     })
+}
+
+/// The texts of the spec of a call, as its plan keeps them, and its model.
+fn read_spec<'d>(call: &call::Sweep, dag: &'d Dag) -> Result<(SpecText, Model<'d>), Failure> {
+    let path = call.spec.path.to_string_lossy();
+    let (_, text) = Disk
+        .read(&path, None)
+        .map_err(|error| Failure::Call(format!("cannot read {path}: {error}")))?;
+    let (mut sources, mut report) = (Sources::new(), Report::new());
+    let mut disk = Disk;
+    let mut files = lagrangian_sweep::plan::FileRecorder::new(&mut disk);
+    let constants = &call.spec.constants;
+    let spec = lagrangian_spec::parse(&mut sources, &path, &text, &mut report);
+    let model = Model::resolve(
+        spec.with_given(call.spec.given.iter().cloned()),
+        dag,
+        constants,
+        &mut files,
+        &mut sources,
+        &mut report,
+    );
+    let read = files.read;
+    let Some(model) = model else {
+        return Err(Failure::Spec(Box::new((report, sources))));
+    };
+    diagnostics::print(&report, &sources);
+    let constants = constants
+        .iter()
+        .map(|(name, value)| (name.clone(), value.to_string()));
+    let spec = SpecText {
+        name: path.clone().into_owned(),
+        text,
+        files: read,
+        constants: constants.collect(),
+        given: Vec::new(),
+    };
+    Ok((spec, model))
+}
+
+/// The values that an option sets, in the units of what they belong to: `varied` is its name in `--vary`.
+fn values(
+    model: &Model<'_>,
+    (option, list): (&str, &[Assignment]),
+    varied: impl Fn(&str) -> String,
+) -> Result<Vec<(String, f64)>, Failure> {
+    let value = |set: &Assignment| {
+        let unit = lagrangian_sweep::unit_of(model, &varied(&set.name))
+            .map_err(|why| Failure::Call(format!("{option} {}: {why}", set.name)))?;
+        let value = set.value(option, &unit).map_err(Failure::Call)?;
+        Ok((set.name.clone(), value))
+    };
+    list.iter().map(value).collect()
+}
+
+/// The events of a call, and those that end runs.
+fn watches(call: &call::Sweep) -> Vec<Watch> {
+    let lists = [(&call.events, false), (&call.ends, true)];
+    let events = lists.into_iter().flat_map(|(list, ends)| {
+        list.iter().map(move |event| Watch {
+            name: event.name.clone(),
+            formula: event.value.clone(),
+            ends,
+        })
+    });
+    events.collect()
 }
 
 /// Checks that the numbers that `--keep` names exist.

@@ -1942,8 +1942,8 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             lists,
             coefficients,
         };
-        costs series_cost(p) = [9.8, 14.7];
-        more powers_cost(p) = [0.5, 13.2, 17.2];
+        costs series_cost(p) = [8.8, 13.7];
+        more powers_cost(p) = [0.4, 13.2, 15.4];
         boolean has_linear_assumptions(p) = true;
         boolean series_may_branch(p) = false;
         matrix mass_matrix(p, t, q) = mass_matrix(p, q);

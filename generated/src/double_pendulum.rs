@@ -758,7 +758,7 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             lists,
             coefficients,
         };
-        costs series_cost(p) = [5.7, 8.6];
+        costs series_cost(p) = [5.6, 8.4];
         boolean series_may_branch(p) = false;
         boolean has_powers(p) = false;
         matrix mass_matrix(p, t, q) = mass_matrix(p, q);

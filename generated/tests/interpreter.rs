@@ -1,6 +1,7 @@
 //! Compares the committed code with the interpreter of the program from which it was printed: the same operations in
 //! the same order give the same bits, over every kind of number. Accelerations use the fastest arithmetic that the
 //! processor has, and the interpreter runs in that arithmetic, too.
+#![allow(clippy::too_many_lines, reason = "a test reads from top to bottom")]
 
 use std::fmt::Debug;
 

@@ -40,6 +40,12 @@ use crate::source::{Files, SourceId, Sources};
 use crate::syntax::{SectionKind, Spec};
 use crate::token::Token;
 
+/// The language of specs.
+const LANGUAGE: Language = Language {
+    sections: SectionKind::ALL,
+    elements: ROWS,
+};
+
 /// The sections of elements, in the order in which their items are resolved and listed.
 const ROWS: &[Row] = &[
     rotor::ROW,
@@ -118,13 +124,9 @@ impl<'d> Model<'d> {
         sources: &mut Sources,
         report: &mut Report,
     ) -> Option<Model<'d>> {
-        let language = Language {
-            sections: SectionKind::ALL,
-            elements: ROWS,
-        };
         resolve::resolve(
             spec,
-            language,
+            LANGUAGE,
             dag,
             constants,
             Vec::new(),
@@ -143,14 +145,10 @@ impl<'d> Model<'d> {
         sources: &mut Sources,
         report: &mut Report,
     ) -> Option<Model<'d>> {
-        let language = Language {
-            sections: SectionKind::ALL,
-            elements: ROWS,
-        };
         let formulas = formulas::items(formulas, sources, report);
         resolve::resolve(
             spec,
-            language,
+            LANGUAGE,
             dag,
             constants,
             formulas,

@@ -19,7 +19,7 @@
 //!             | "states" "{" list(declared ":" unit ["=" expression]
 //!                                 | "der" "(" declared ")" [":" unit] "=" expression) "}"
 //! values      = ("define" | "frames") "{" list(declared "=" expression) "}"
-//!             | ("potentials" | "dissipations") "{" list(declared ":" expression) "}"
+//!             | ("potentials" | "dissipations" | "energies" | "losses") "{" list(declared ":" expression) "}"
 //! records     = ("bodies" | "rotors" | "springs" | "torsion_springs" | "dampers" | "bushings" | "stops"
 //!               | "forces" | "torques" | "actuators" | "drag" | "transmissions" | "ropes"
 //!               | "wheels" | "sliding" | "circles" | "spheres" | "rolling" | "contacts") "{" list(declared record) "}"
@@ -56,10 +56,10 @@
 //!             | "(" list(expression) ")" | "table" "(" TEXT "," expression ["," "hold"] ")"
 //!
 //! unit        = factor {("*" | "/") factor}
-//! factor      = ("1" | NAME | "(" unit ")") ["^" ["-"] NUMBER]
+//! factor      = ("1" | NAME | "(" unit ")") ["^" (["-"] NUMBER | "(" ["-"] NUMBER ["/" "2"] ")")]
 //! ```
 //!
-//! A parameter, a coordinate, an input and an output need a unit, a constant and an output a value.
+//! A parameter, a coordinate, a state, an input and an output need a unit; a constant and an output need a value.
 //! [`SectionKind::fields`] lists the fields of a record. The sections of elements in the grammar are
 //! those of the list that the parser receives, see [`Section`].
 

@@ -1,4 +1,4 @@
-"""Results of the command ``lagrangian`` about a machine, computed in this process, and the command itself."""
+"""The command ``lagrangian``, and its results for a machine, computed in this process."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from .errors import Diagnostic, ExportError, LagrangianError, unknown
 
 
 def main() -> int:
-    """The command ``lagrangian``, with the arguments of this process; its exit status."""
+    """Runs the command ``lagrangian`` with the arguments of this process, and returns its exit status."""
     return int(_native.command(sys.argv[1:]))
 
 
 def answer(machine: Any, command: str, options: Sequence[str], wrong: Sequence[int] = (1,)) -> Dict[str, Any]:
     """The JSON document that a command prints about a machine.
 
-    An exit status among ``wrong`` is raised; a call that is wrong always is, as ValueError.
+    An exit status in ``wrong`` raises a LagrangianError, and an invalid call a ValueError.
     """
     status, out, err = _native.answer(machine._program, command, ["--json", *options])
     if status == 2 or (status in wrong and status != 0):
@@ -38,7 +38,7 @@ def answer(machine: Any, command: str, options: Sequence[str], wrong: Sequence[i
 
 
 def told_of_file(command: str, path: str, options: Sequence[str]) -> str:
-    """What a command prints about a file that holds no spec; ValueError if the file or the call is wrong."""
+    """The output of a command for a file that is not a spec. Raises a ValueError if the file or the call is invalid."""
     status, out, err = _native.answer_of_file(command, path, list(options))
     if status != 0:
         try:
@@ -62,17 +62,17 @@ def settings(machine: Any) -> List[str]:
 
 
 class Published(NamedTuple):
-    """A printed formula, compared with the derived one."""
+    """A published formula, compared with the derived one."""
 
     block: str
-    """What the spec calls the print."""
+    """The title of the publication in the spec."""
     item: str
     """The formula."""
     agrees: bool
     add: List[str]
-    """Terms that the print lacks."""
+    """Terms that the publication lacks."""
     drop: List[str]
-    """Terms that it must not have."""
+    """Terms that the publication has and the derivation has not."""
 
 
 class Accuracy(NamedTuple):
@@ -102,10 +102,10 @@ class Check:
     coordinates: int
     constraints: int
     independent: Optional[int]
-    """How many constraints are independent of each other; None where that is not known."""
+    """The number of constraints that are independent of each other; None if it is not known."""
     degrees_of_freedom: Optional[int]
     published: List[Published]
-    """Printed formulas of the spec, compared with the derived ones."""
+    """The published formulas of the spec, compared with the derived ones."""
     diagnostics: List[Diagnostic]
     """Warnings, and contradictions of constraints."""
     accuracy: Dict[str, Accuracy]
@@ -125,7 +125,7 @@ class Check:
 
     @property
     def ok(self) -> bool:
-        """Whether there is nothing to report: no warning, and no printed formula that differs."""
+        """Whether there is no warning and no published formula that differs from the derived one."""
         return not self.diagnostics and all(formula.agrees for formula in self.published)
 
     def __repr__(self) -> str:
@@ -133,13 +133,13 @@ class Check:
         freedom = "unknown" if self.degrees_of_freedom is None else self.degrees_of_freedom
         return (
             f"<Check: {self.coordinates} coordinates, {self.constraints} constraints, degrees of freedom {freedom}, "
-            f"{len(self.diagnostics)} messages, {wrong} of {len(self.published)} printed formulas differ>"
+            f"{len(self.diagnostics)} messages, {wrong} of {len(self.published)} published formulas differ>"
         )
 
 
 def check(self: Any, *, accuracy: bool = False) -> Check:
-    """Degrees of freedom, warnings, and printed equations against the derived ones, as ``lagrangian check``; with ``accuracy`` also how
-    accurate the derived program is, as ``--accuracy``."""
+    """Counts the degrees of freedom, finds warnings, and compares published equations with the derived ones, as ``lagrangian check``
+    does; with ``accuracy`` it also measures how accurate the derived program is, as ``--accuracy`` does."""
     return Check(answer(self, "check", ["--accuracy"] if accuracy else [], wrong=()))
 
 
@@ -152,11 +152,11 @@ def library(
     source: Optional[Union[str, "os.PathLike[str]"]] = None,
     straight: bool = False,
 ) -> str:
-    """Writes a shared library of the equations with a C interface, and its header beside it, as ``lagrangian library``; the path of the
-    header.
+    """Writes a shared library of the equations with a C interface, and its header beside it, as ``lagrangian library`` does. Returns the
+    path of the header.
 
-    A Rust toolchain compiles it. Parameters and inputs are arguments of its functions, so that the values of this machine do not
-    matter; constants are those of this machine. ``lanes``: for how many states at once there are functions besides ``eval``, 2, 4,
+    It is compiled by a Rust toolchain. Parameters and inputs are arguments of its functions, so their values in this machine have no
+    effect; constants are those of this machine. ``lanes``: for how many states at once there are functions besides ``eval``, 2, 4,
     8 or several of them. ``target_cpu`` is a processor as rustc names it, ``source`` a file for the Rust source.
     """
     of_lanes = [lanes] if isinstance(lanes, int) else list(lanes)
@@ -176,7 +176,7 @@ class Fmu(NamedTuple):
     """The version of the interface."""
     kinds: List[str]
     platforms: List[str]
-    """Those that there are libraries for; empty where the importer compiles."""
+    """The platforms that the unit has libraries for; empty if the importing tool compiles its sources."""
     states: int
     parameters: int
     inputs: int
@@ -189,10 +189,10 @@ def fmu(
     out: Union[str, "os.PathLike[str]"],
     *,
     fmi: int = 3,
-    kind: Sequence[str] = ("me", "cs"),
+    kind: Optional[Sequence[str]] = None,
     outputs: Optional[Sequence[str]] = None,
     events: Optional[Mapping[str, str]] = None,
-    method: str = "dop853",
+    method: Optional[str] = None,
     tolerance: float = 1e-9,
     start: Any = None,
     rate: Any = None,
@@ -200,13 +200,17 @@ def fmu(
     target: Sequence[str] = (),
     sources_only: bool = False,
 ) -> Fmu:
-    """Writes a functional mock-up unit, ``.fmu``, with the parameters and inputs of this machine as defaults, as ``lagrangian fmu``.
+    """Writes a functional mock-up unit, ``.fmu``, with the parameters and inputs of this machine as defaults, as ``lagrangian fmu`` does.
 
-    A C compiler makes its libraries, unless ``sources_only``. ``kind``: ``"me"``, model exchange, and ``"cs"``, co-simulation, by
-    ``method`` to ``tolerance``. ``outputs`` are names, ``events`` formulas whose changes of sign are reported, by name.
+    A C compiler makes its libraries, unless ``sources_only``, and ``rustc`` beside it those of machines with contacts or guides.
+    ``kind``: ``"me"``, model exchange, and ``"cs"``, co-simulation, by ``method``, ``"dop853"`` or ``"dopri5"``, to ``tolerance``; by
+    default both, or what the machine allows. ``outputs`` are names; ``events`` maps names to formulas, whose sign changes are reported.
     """
-    options = [f"--out={os.fspath(out)}", f"--fmi={fmi}", f"--kind={','.join([kind] if isinstance(kind, str) else kind)}"]
-    options += [f"--method={method}", f"--tolerance={float(tolerance)!r}"]
+    options = [f"--out={os.fspath(out)}", f"--fmi={fmi}", f"--tolerance={float(tolerance)!r}"]
+    if kind is not None:
+        options.append(f"--kind={','.join([kind] if isinstance(kind, str) else kind)}")
+    if method is not None:
+        options.append(f"--method={method}")
     options += [*settings(self), *_places(self, "--start", start), *_places(self, "--rate", rate)]
     if outputs is not None:
         options.append(f"--outputs={','.join([outputs] if isinstance(outputs, str) else outputs)}")
@@ -232,12 +236,12 @@ def _exported(machine: Any, command: str, options: Sequence[str]) -> Dict[str, A
 
 
 class Brachistochrone:
-    """The fastest motion from rest at one place to another, under control forces that do no work: k moments of it."""
+    """The fastest motion from rest at one position to another, under control forces that do no work, at k instants."""
 
     time: float
-    """How long it takes, in s."""
+    """Its duration, in s."""
     is_motion: bool
-    """Whether the machine can move in this way: guides only press, and a simulation under the control forces arrives at the end."""
+    """Whether it is a motion of the machine: guides only press, and a simulation under the control forces arrives at the end."""
     t: np.ndarray
     """(k,), in s."""
     q: Named
@@ -249,7 +253,7 @@ class Brachistochrone:
     reactions: Mapping[str, np.ndarray]
     """Normal reactions of guides by name, (k,), in N."""
     parameters: Mapping[str, Any]
-    """Constants of the motion, as ``lagrangian brachistochrone --json`` names them."""
+    """Constants of the motion, under the names that ``lagrangian brachistochrone --json`` gives them."""
     method: str
     """``"closed form"`` or ``"direct"``."""
     warnings: List[str]
@@ -320,10 +324,10 @@ def brachistochrone(
     natural: bool = False,
     guess: Optional[Union[str, "os.PathLike[str]"]] = None,
 ) -> Brachistochrone:
-    """The fastest motion from rest at ``start`` to ``to``, at rest there or not, as ``lagrangian brachistochrone``.
+    """The fastest motion from rest at ``start`` to ``to``, where the machine need not be at rest, as by ``lagrangian brachistochrone``.
 
-    Both are mappings from coordinates to numbers, arrays (n,), or what the spec says; with ``natural`` they are in normal
-    coordinates. ``guess`` is a table of a path near which to search, if there is no closed form.
+    Both are mappings from coordinates to numbers or arrays (n,), by default those of the spec; with ``natural`` they are in normal
+    coordinates. ``guess`` is a table of a path near which the motion is sought if there is no closed form.
     """
     options = [*settings(self), *_places(self, "--from", start), *_places(self, "--to", to)]
     if natural:
@@ -337,12 +341,12 @@ class Campbell:
     """Eigenvalues along values of a parameter or of a rate, each mode followed from value to value."""
 
     name: str
-    """What is varied."""
+    """The name of the varied quantity."""
     unit: str
     values: np.ndarray
     """(k,)"""
     eigenvalues: np.ndarray
-    """Complex (k, modes), in 1/s, of each conjugate pair the one above the real axis; NaN where a mode does not exist."""
+    """Complex (k, modes), in 1/s; of each conjugate pair the one with a positive imaginary part. NaN where a mode does not exist."""
 
     def __init__(self, values: np.ndarray, document: Mapping[str, Any]) -> None:
         self.name, self.unit = document["along"]["name"], document["along"]["unit"]
@@ -398,7 +402,7 @@ def campbell(
     steady: Any = None,
 ) -> Campbell:
     """Eigenvalues about the equilibrium, or the steady motion, that is followed along equally spaced values of a parameter, of an
-    input, or of the rate of a coordinate that moves steadily: ``(a, b, k)`` or an array (k,). ``steady`` as for ``linearize``.
+    input, or of the rate of a coordinate that moves steadily: ``(a, b, k)`` or an array (k,). ``steady`` is as for ``linearize``.
     """
     if isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], int):
         values = np.linspace(*values)

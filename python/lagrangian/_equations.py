@@ -17,15 +17,15 @@ class Equations:
         self._program = program
 
     def markdown(self) -> str:
-        """As Markdown, formulas between ``$`` and ``$$``."""
+        """The derivation as Markdown, with formulas between ``$`` and ``$$``."""
         return str(self._program.derive("markdown"))
 
     def latex(self) -> str:
-        """As a document of its own in LaTeX."""
+        """The derivation as a complete LaTeX document."""
         return str(self._program.derive("latex"))
 
     def html(self) -> str:
-        """As a page of its own."""
+        """The derivation as a complete HTML page."""
         return str(self._program.derive("html"))
 
     def _repr_latex_(self) -> str:
@@ -43,7 +43,7 @@ class Equations:
 
 
 class Program:
-    """The straight-line arithmetic of a machine."""
+    """The program of a machine: straight-line arithmetic."""
 
     def __init__(self, machine: Any) -> None:
         self._machine = machine
@@ -56,12 +56,12 @@ class Program:
 
     @property
     def counts(self) -> Mapping[str, Mapping[str, int]]:
-        """For each function its operations by kind: ``multiplications``, ``additions``, ``divisions``, ``sincos``, …"""
+        """The operations of each function by kind: ``multiplications``, ``additions``, ``divisions``, ``sincos``, …"""
         return MappingProxyType(self._told["counts"])
 
     @property
     def cycles(self) -> Mapping[str, float]:
-        """For each function that could be computed in several ways, an estimate of the processor cycles of a call among others."""
+        """For each function that can be computed in several ways, an estimate of the processor cycles of a call in the middle of other work."""
         choices = self._told["choices"]
         return MappingProxyType({name: ways[0]["cycles_among_others"] for name, ways in choices.items()})
 

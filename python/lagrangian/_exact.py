@@ -10,28 +10,28 @@ from ._looks import Names, _run
 
 
 class GlobalError(NamedTuple):
-    """How far the end of a run is from that of the exact motion."""
+    """The error of the end of a run, compared with the exact motion."""
 
     kind: str
     """``"estimate"`` or ``"bound"``."""
     by: str
-    """What the run was compared with."""
+    """What the run was compared with, in words."""
     errors: Dict[str, float]
-    """Of coordinates and rates ``der(x)`` by name, in their units."""
+    """The errors of coordinates and rates ``der(x)``, by name, in their units."""
     greatest: float
-    """The greatest of them, each relative to its scale."""
+    """The largest error relative to the scale of its coordinate or rate."""
     is_rounding: bool
-    """Whether no tolerance would make it smaller: it is rounding."""
+    """Whether the error is due to rounding, so that no tolerance would make it smaller."""
 
 
 class Precise(NamedTuple):
-    """The end of a run in double-double, some 30 digits."""
+    """The end of a run in double-double numbers, which have about 31 digits."""
 
     t: float
     q: Dict[str, Decimal]
     v: Dict[str, Decimal]
     difference: float
-    """How far a run at another tolerance is from it: an estimate of its error."""
+    """Its distance from the end of a run at another tolerance, an estimate of its error."""
     method: str
     tolerance: float
     steps: int
@@ -39,11 +39,11 @@ class Precise(NamedTuple):
 
 
 class Enclosure(NamedTuple):
-    """Bounds that are proved to contain the motion at the end."""
+    """Proved bounds on the state at the end of a motion."""
 
     t: float
     q: Dict[str, Tuple[float, float]]
-    """The lower and the upper bound by name."""
+    """The lower and the upper bound, by name."""
     v: Dict[str, Tuple[float, float]]
     steps: int
 
@@ -63,8 +63,9 @@ def global_error(
     method: Optional[str] = None,
     max_steps: Optional[int] = None,
 ) -> GlobalError:
-    """How accurate the end of ``simulate(until, …)`` is, as ``lagrangian simulate --global-error``: compared with a run in
-    double-double where the machine has one, else with a finer one. ``method`` and ``tolerance`` are those of the run that is judged."""
+    """The error of the end of ``simulate(until, …)``, as by ``lagrangian simulate --global-error``: by comparison with a run in
+    double-double if the machine has one, otherwise with a run at a finer tolerance. ``method`` and ``tolerance`` are those of the run
+    whose error is sought."""
     numbers = {"tolerance": tolerance, "method": method or "dop853", "max_steps": max_steps}
     found = _end(self, ["--global-error"], until, start, rate, keep, numbers)["global_error"]
     return GlobalError(**{name: found[name] for name in GlobalError._fields})
@@ -81,7 +82,7 @@ def precise(
     max_steps: Optional[int] = None,
 ) -> Precise:
     """The end of a run in double-double, as ``lagrangian simulate --precision dd``, for references. Machines with constraints or
-    contacts, which have none, raise an error."""
+    contacts have no such run and raise an error."""
     numbers = {"tolerance": tolerance, "method": method, "max_steps": max_steps}
     found = _end(self, ["--precision=dd"], until, start, rate, (), numbers)
     q, v = ({name: Decimal(text) for name, text in found[kind].items()} for kind in ("q", "v"))
@@ -98,8 +99,8 @@ def validated(
     tolerance: Optional[float] = None,
     max_steps: Optional[int] = None,
 ) -> Enclosure:
-    """Bounds that are proved to contain the motion at ``until``, as ``lagrangian simulate --validated``, for short motions of machines
-    with a Taylor series and without constraints and contacts; others raise an error."""
+    """Proved bounds on the state at ``until``, as by ``lagrangian simulate --validated``, for short motions of machines that have a
+    Taylor series and neither constraints nor contacts; others raise an error."""
     numbers = {"tolerance": tolerance, "max_steps": max_steps}
     found = _end(self, ["--validated"], until, start, rate, (), numbers)
     bounds = {kind: {name: (low, high) for name, (low, high) in found[kind].items()} for kind in ("q", "v")}

@@ -15,12 +15,12 @@ _Data = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
 
 
 class Combination(NamedTuple):
-    """What measurements determine of numbers that they cannot tell apart."""
+    """A combination of fitted numbers that the measurements determine, although they do not determine these numbers separately."""
 
     formula: str
     """``k/m``, ``m1 + m2``"""
     kind: str
-    """``product`` or ``sum``; ``local``, a sum for small changes only."""
+    """``product`` or ``sum``; ``local`` is a sum that holds only for small changes."""
     unit: Optional[str]
     value: float
     standard_error: float
@@ -30,37 +30,37 @@ class Fit:
     """The result of a fit of p numbers to m measurements."""
 
     names: Tuple[str, ...]
-    """Parameters, ``start(x)`` and ``rate(x)``; of several experiments ``start(x) in 2``."""
+    """Parameters, ``start(x)`` and ``rate(x)``; ``start(x) in 2`` is that of the second of several experiments."""
     values: Dict[str, float]
     """In the units of the spec."""
     standard_errors: Dict[str, float]
     """NaN for numbers that the measurements do not determine."""
     standing: Dict[str, str]
-    """``told``, determined; ``bound``, at a bound beyond which the sum of squares falls; ``ineffective``, nothing depends on it;
-    ``entangled``, others have the same effect."""
+    """By name: ``estimated``; ``bound``, at a bound beyond which the sum of squares decreases; ``ineffective``, nothing depends on it;
+    ``entangled``, others have the same effect. Only the first has a standard error."""
     covariance: np.ndarray
     """(p, p), NaN for numbers that are not determined."""
     correlation: np.ndarray
     """(p, p)"""
     combinations: List[Combination]
-    """What is determined of entangled numbers."""
+    """The combinations of entangled numbers that the measurements determine."""
     chi_squared: float
-    """The sum of squares of residuals over standard deviations."""
+    """The sum of the squares of the residuals, each divided by its standard deviation."""
     degrees_of_freedom: int
     measurements: int
     sigma: Dict[str, float]
     """Standard deviations of what is measured, by name: given, or estimated from the residuals."""
     t: np.ndarray
-    """The times at which something was measured, experiments one after the other, (rows,), in s."""
+    """The times of the measurements, experiments one after the other, (rows,), in s."""
     experiment: np.ndarray
     """The number of the experiment of each, from 1."""
     residuals: Dict[str, np.ndarray]
-    """Measured less computed, by name, (rows,); NaN where this was not measured."""
+    """Measured minus computed values, by name, (rows,); NaN where there is no measurement."""
     computed: Dict[str, np.ndarray]
     """The computed values, in the same form."""
     converged: bool
     derivatives: str
-    """``integrated`` with the motion, or ``differences`` of runs."""
+    """How derivatives of the motion were computed: ``integrated`` with it, or by ``differences`` of runs."""
     warnings: List[str]
     machine: Any
     """The machine with the parameters that were fitted."""
@@ -169,9 +169,9 @@ def fit(
     """Finds parameters, ``start(x)`` and ``rate(x)`` with which the machine moves as measured, as ``lagrangian fit``.
 
     ``data`` is a mapping from ``t`` in s and the names of coordinates, rates ``der(x)`` and outputs to arrays (rows,) in the units of the
-    spec, NaN where nothing was measured; a data frame, a run, or the path of a table; or a list of these, experiments with starts of
-    their own. ``settings`` gives for each the values of its own, ``{"start(x)": 0.3, "m": 2}``. ``sigma`` are standard deviations by
-    name, or ``"auto"``; without them columns must have the same unit, and have equal weights. ``inputs`` are numbers, formulas, or tables
+    spec, NaN where nothing was measured; a data frame, a run, or the path of a table; or a list of these, one for each experiment, which has its own
+    start. ``settings`` gives the values that differ between experiments, a mapping for each, ``{"start(x)": 0.3, "m": 2}``. ``sigma`` are standard deviations by
+    name, or ``"auto"``; without it all columns must have the same unit, and have equal weights. ``inputs`` are numbers, formulas, or tables
     in files. Raises ``LagrangianError`` where no minimum is found.
     """
     if isinstance(data, (str, os.PathLike, Mapping)) or hasattr(data, "columns"):

@@ -28,11 +28,11 @@ class Mode(NamedTuple):
     """−Re λ/|λ|; NaN where nothing oscillates."""
     kind: str
     shape: Dict[str, complex]
-    """By the names of coordinates, the largest number 1."""
+    """By the names of coordinates, scaled so that the largest number is 1."""
 
 
 class Modes:
-    """The motions near an equilibrium or a steady motion, slow ones first; of a conjugate pair one."""
+    """The modes about an equilibrium or a steady motion, slow ones first; one for each conjugate pair of eigenvalues."""
 
     eigenvalues: np.ndarray
     """Complex (j,), in 1/s."""
@@ -43,14 +43,14 @@ class Modes:
     kinds: Tuple[str, ...]
     """``oscillation``, ``growing oscillation``, ``decaying``, ``growing``, ``free``."""
     shapes: np.ndarray
-    """Complex (n, j), the largest number of each 1."""
+    """Complex (n, j), a column for each mode, scaled so that its largest number is 1."""
     error: np.ndarray
-    """Bounds on the eigenvalues, in 1/s: (j,)."""
+    """Bounds on the errors of the eigenvalues, in 1/s: (j,)."""
     equilibrium: State
     """The equilibrium, or a state of the steady motion."""
 
     def __init__(self, machine: Any, found: Mapping[str, Any]) -> None:
-        # Those of the other chart where the spec's have no modes.
+        # Those of the Cartesian chart where the coordinates of the spec have no modes.
         self._names = tuple(found["coordinates"] or machine.coordinates)
         n = len(self._names)
         self.eigenvalues = found["re"] + 1j * found["im"]
@@ -80,7 +80,7 @@ class Modes:
 
 
 class Linear:
-    """A linear model ``ẋ = A x + B u``, ``y = C x + D u`` of r states, m inputs and p outputs; all of them changes."""
+    """A linear model ``ẋ = A x + B u``, ``y = C x + D u`` for small deviations of r states, m inputs and p outputs."""
 
     A: np.ndarray
     """(r, r); r is 2n without constraints."""
@@ -95,17 +95,17 @@ class Linear:
     inputs: Tuple[str, ...]
     outputs: Tuple[str, ...]
     units: Mapping[str, str]
-    """Of states, inputs and outputs by name."""
+    """The units of states, inputs and outputs, by name."""
     at: State
-    """Where."""
+    """The state about which the model is linear."""
     u: np.ndarray
-    """The inputs of the machine there."""
+    """The inputs of the machine at that state."""
     y: np.ndarray
-    """The outputs there, (p,)."""
+    """The outputs at that state, (p,)."""
     drift: np.ndarray
-    """ẋ where x and u are 0: (r,); nothing about an equilibrium or along a steady motion."""
+    """ẋ for x = 0 and u = 0, (r,): 0 about an equilibrium and along a steady motion."""
     basis: np.ndarray
-    """(2n, r): takes x to the changes of all coordinates, then of all rates."""
+    """(2n, r): ``basis @ x`` are the deviations of all coordinates, followed by those of all rates."""
     left_out: Tuple[str, ...]
     """Coordinates that only record the progress of a steady motion, and are not states."""
 
@@ -120,7 +120,7 @@ class Linear:
             array = found[name].reshape(shapes.get(name, (-1,)))
             array.flags.writeable = False
             setattr(self, name, array)
-        # Those of the other chart where the spec's have no linear model.
+        # Those of the Cartesian chart where the coordinates of the spec have no linear model.
         self.at = _state(tuple(found["coordinates"] or machine.coordinates), t, found["q"], found["v"])
         self.left_out = tuple(found["left_out"])
         self._poles: np.ndarray = found["poles_re"] + 1j * found["poles_im"]
@@ -129,11 +129,11 @@ class Linear:
         self._machine_inputs = tuple(machine.inputs)
 
     def eigenvalues(self) -> np.ndarray:
-        """The poles in 1/s, complex (r,), both of each conjugate pair; found in 32 digits."""
+        """The poles in 1/s, complex (r,), both of each conjugate pair; computed with 32 digits."""
         return np.array(self._poles)
 
     def zeros(self) -> np.ndarray:
-        """The invariant zeros in 1/s of all inputs and outputs together."""
+        """The invariant zeros of the model with all its inputs and outputs, in 1/s."""
         return np.array(self._zeros)
 
     def response(self, omega: Any) -> np.ndarray:
@@ -372,14 +372,14 @@ def linearize(
     outputs: Optional[Sequence[str]] = None,
     steady: Optional[Steady] = None,
 ) -> Linear:
-    """The linear model about a state, whatever the machine does there; derivatives are exact.
+    """The linear model about a state, which need not be an equilibrium; derivatives are exact.
 
-    * ``start``, ``rate``: mappings from names to numbers, in place of the spec's, or arrays (n,); or ``start`` is a State. With
-      constraints it is moved onto them, as a run would.
-    * ``steady``: about the steady motion near the start instead, ``{"phi": 150}`` in rad/s; ``{}`` means the equilibrium, the rate
-      None that of the start, and the rate ``"solve"`` one to be found.
-    * ``u``: values of inputs there, a mapping or (m,). ``inputs``, ``outputs``: which of them the model has; outputs are those of
-      the spec, coordinates, ``der(x)``, ``der(x,2)`` and ``multiplier(rod)``.
+    * ``start``, ``rate``: mappings from names to numbers, which replace those of the spec, or arrays (n,); or ``start`` is a State.
+      The state is moved onto the constraints, as at the start of a run.
+    * ``steady``: the model is about the steady motion near the start instead, in which the named coordinates have these rates,
+      ``{"phi": 150}`` in rad/s. The rate None is that of the start, and the rate ``"solve"`` is computed; ``{}`` is the equilibrium.
+    * ``u``: the inputs at that state, a mapping or (m,). ``inputs``, ``outputs``: the names of those that the model has; an output is
+      one of the spec, a coordinate, ``der(x)``, ``der(x,2)`` or ``multiplier(rod)``.
     """
     given = _start(self, start, rate, t)
     names = tuple(self.inputs)
@@ -401,9 +401,9 @@ def linearize(
 
 
 def modes(self: Any, *, start: Any = None, u: Any = None, steady: Optional[Steady] = None) -> Modes:
-    """The motions near the equilibrium, or the steady motion, that is found from a start: eigenvalues, shapes.
+    """The modes about the equilibrium, or the steady motion, that is found from a start: eigenvalues and shapes.
 
-    ``steady`` as for :meth:`linearize`; rates of all other coordinates are 0.
+    ``steady`` is as for :meth:`linearize`; the rates of all other coordinates are 0.
     """
     given = _start(self, start, None, 0.0)
     moves, sought = _steady(self, steady, given[2])

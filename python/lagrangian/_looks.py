@@ -20,15 +20,15 @@ class Line(NamedTuple):
     """A frequency in a run."""
 
     frequency: float
-    """In Hz, between those of the spectrum."""
+    """In Hz, interpolated between the frequencies of the spectrum."""
     amplitude: float
-    """The amplitude of the sine, in the unit of the quantity."""
+    """Its amplitude, in the unit of the quantity."""
     phase: float
-    """The phase of its cosine at the first sample, in rad."""
+    """The phase of the cosine at the first sample, in rad."""
 
 
 class Spectrum:
-    """Amplitudes by frequency: ``spectrum["theta1"]`` is (k,), and ``lines["theta1"]`` the lines, the greatest first."""
+    """Amplitudes by frequency: ``spectrum["theta1"]`` is (k,), and ``lines["theta1"]`` are the lines in it, the largest first."""
 
     names: Tuple[str, ...]
     units: Dict[str, str]
@@ -71,10 +71,10 @@ class Peaks:
     values: np.ndarray
     """(k,)"""
     maximum: np.ndarray
-    """Whether it is a maximum, or else a minimum, (k,)."""
+    """Whether it is a maximum; otherwise it is a minimum, (k,)."""
     unit: str
     period: Optional[float]
-    """In s; None where there are too few extremes, as of the next two."""
+    """In s; this and the next two are None if there are too few extremes."""
     decrement: Optional[float]
     """Logarithmic decrement."""
     damping: Optional[float]
@@ -133,16 +133,16 @@ class Difference(NamedTuple):
     rms: float
     """The root of its mean square over time."""
     range: float
-    """Greatest minus least value in the first run, or its value where that is constant."""
+    """Largest minus smallest value in the first run, or its value if it is constant."""
     relative: Optional[float]
-    """``largest`` relative to ``range``; None where the range is 0 and the difference is not."""
+    """``largest`` relative to ``range``; None if the range is 0 and the difference is not."""
 
 
 class Comparison:
     """How far two runs are apart: ``comparison["theta1"]`` is a :class:`Difference`."""
 
     start: float
-    """In s, as is ``end``."""
+    """The times between which the runs are compared, in s: ``start`` and ``end``."""
     end: float
     instants: int
     names: Tuple[str, ...]

@@ -65,9 +65,9 @@ def from_urdf(
     constants: Optional[Mapping[str, Any]] = None,
     **parameters: Number,
 ) -> "Machine":
-    """The machine of a robot in a file of URDF, whose spec ``machine.text`` is: what ``lagrangian import`` writes.
+    """The machine of a robot in a URDF file; ``machine.text`` is its spec, as ``lagrangian import`` writes it.
 
-    The keywords are its options: ``base`` is ``"fixed"`` or ``"floating"``; ``ball``, the axes of angles of spherical and floating
+    The keywords are the options of that command: ``base`` is ``"fixed"`` or ``"floating"``; ``ball``, the axes of angles of spherical and floating
     joints, ``"xyz"``, ``"zyx"`` or ``"zxz"``, or ``"quaternion"``; ``friction`` ``"none"`` or ``"smooth=1e-3"``; ``limits`` ``"none"``, ``"assume"`` or
     ``"stop"``; ``drop_massless`` leaves out joints that move no mass; ``ignore`` names elements and
     attributes that are left out.
@@ -88,10 +88,10 @@ def from_mjcf(
     constants: Optional[Mapping[str, Any]] = None,
     **parameters: Number,
 ) -> "Machine":
-    """The machine of a robot in a file of MJCF, with the ending ``.xml`` or ``.mjcf``, whose spec ``machine.text`` is: what
-    ``lagrangian import`` writes. The file itself says by ``freejoint`` which bodies float.
+    """The machine of a robot in an MJCF file, ``.xml`` or ``.mjcf``; ``machine.text`` is its spec, as ``lagrangian import`` writes it.
+    The file itself states by ``freejoint`` which bodies float.
 
-    The keywords are the command's options, as of :func:`from_urdf`. What was left out is reported by warnings of Python. A
+    The keywords are options of that command, as for :func:`from_urdf`. What was left out is reported by warnings of Python. A
     faulty file raises a ValueError that gives the line.
     """
     if os.fspath(path).lower().endswith(".urdf"):
@@ -147,20 +147,20 @@ def _exactly(name: str, value: Any) -> str:
 
 
 class Evaluation:
-    """Everything that a machine computes at states of shape S, with the numbers of ``lagrangian evaluate``."""
+    """Everything that a machine computes at states of shape S, the same numbers as by ``lagrangian evaluate``."""
 
     mass_matrix: np.ndarray
-    """(*S, n, n)"""
+    """M, (*S, n, n)."""
     bias: np.ndarray
-    """(*S, n)"""
+    """h, (*S, n)."""
     applied: np.ndarray
-    """(*S, n)"""
+    """Q, (*S, n)."""
     forces: np.ndarray
-    """(*S, n)"""
+    """f = Q − h, (*S, n)."""
     accelerations: np.ndarray
-    """(*S, n)"""
+    """a, (*S, n)."""
     reactions: np.ndarray
-    """Generalized reactions of the constraints, (*S, n)."""
+    """Gᵀ λ, the generalized reactions of the constraints, (*S, n)."""
     kinetic_energy: np.ndarray
     """S, in J."""
     potential_energy: np.ndarray
@@ -170,18 +170,17 @@ class Evaluation:
     outputs: Mapping[str, np.ndarray]
     multipliers: Mapping[str, np.ndarray]
     contacts: Mapping[str, Mapping[str, np.ndarray]]
-    """By name: ``normal`` and ``friction`` in N, ``slip`` in m/s, ``sticks``; of those that open and close ``gap`` in m and
-    ``closed`` as well."""
+    """By name: ``normal`` and ``friction`` in N, ``slip`` in m/s, ``sticks``; unilateral contacts also have ``gap`` in m and ``closed``."""
     ok: np.ndarray
-    """Which states have accelerations; the numbers of others are NaN."""
+    """Whether a state has accelerations; the numbers of the others are NaN."""
     columns: Mapping[str, np.ndarray] = MappingProxyType({})
-    """Of :meth:`Run.observe`: the columns of the run at the requested times, S each."""
+    """In the result of :meth:`Run.observe`: the columns of the run at the requested times, each of shape S."""
 
     def __init__(self, **numbers: Any) -> None:
         self.__dict__.update(numbers)
 
     def __getitem__(self, name: str) -> Any:
-        """A column of the run, where a run was observed."""
+        """A column of the run, in the result of :meth:`Run.observe`."""
         if name not in self.columns:
             raise unknown("column", name, tuple(self.columns))
         return self.columns[name]
@@ -211,7 +210,7 @@ class Machine(_native.Machine):
         return made
 
     def _set(self, values: Mapping[str, Number]) -> "Machine":
-        """The same program with other values; those of families are set first."""
+        """The machine with other values; those of whole families are set first."""
         if not values:
             return self
         names, inputs = tuple(self.parameters), tuple(self.inputs)
@@ -251,15 +250,15 @@ class Machine(_native.Machine):
         return type(self)._with(self._program, given, driven)
 
     def with_parameters(self, values: Optional[Mapping[str, Number]] = None, /, **parameters: Number) -> "Machine":
-        """The same program with other values of parameters and inputs: nothing is derived again.
+        """The machine with other values of parameters and inputs; it is not derived again.
 
-        A family's name sets all its members; names that are not identifiers are given in the mapping: ``{"k[3]": 2.0}``. A parameter
-        for which the spec has a formula no longer follows it, and is among :attr:`parameters`; this derives the machine again.
+        The name of a family sets all its members; names that are not identifiers are given in the mapping: ``{"k[3]": 2.0}``. A derived
+        parameter no longer follows its formula and is then among :attr:`parameters`; this case does derive the machine again.
         """
         return self._set({**(values or {}), **parameters})
 
     def with_constants(self, values: Optional[Mapping[str, Any]] = None, /, **constants: Any) -> "Machine":
-        """The machine with other values of constants, derived again. Parameters that still exist keep their values."""
+        """The machine with other values of constants, derived again. Parameters that still exist keep the values that were set."""
         every = dict(self._program.constants)
         every.update(_constants({**(values or {}), **constants}))
         program = self._program.with_constants(sorted(every.items()))
@@ -297,7 +296,7 @@ class Machine(_native.Machine):
 
     @property
     def files(self) -> Mapping[str, str]:
-        """The texts that it extends, by name."""
+        """The texts of the specs that it extends, by name."""
         return MappingProxyType(dict(self._program.files))
 
     @property
@@ -312,8 +311,8 @@ class Machine(_native.Machine):
 
     @property
     def states(self) -> Tuple[str, ...]:
-        """The names of states of first order: currents, temperatures, integrals of controllers. They are rates, ``v["i"]``, of
-        the last coordinates, their integrals over time."""
+        """The names of states of first order: currents, temperatures, integrals of controllers. They are the rates, ``v["i"]``, of the
+        last coordinates, which are their integrals over time."""
 
         def make() -> Tuple[str, ...]:
             states = (state_of(name) for name in self.coordinates)
@@ -339,7 +338,7 @@ class Machine(_native.Machine):
 
     @property
     def contacts(self) -> Tuple[str, ...]:
-        """The names of contacts that stick and slide, then of those that open and close."""
+        """The names of guided contacts, then of unilateral ones."""
         return self._once("contacts", lambda: tuple(self._program.contacts))
 
     @property
@@ -410,7 +409,7 @@ class Machine(_native.Machine):
 
     @property
     def start(self) -> State:
-        """The start of the spec under these parameters."""
+        """The start that the spec defines, with the values of these parameters."""
 
         def make() -> State:
             q, v = self._start()
@@ -425,16 +424,16 @@ class Machine(_native.Machine):
 
     @property
     def equations(self) -> Equations:
-        """The equations of motion; typeset in a notebook."""
+        """The derivation of the equations of motion, which a notebook typesets."""
         return Equations(self._program)
 
     @property
     def program(self) -> Program:
-        """The arithmetic that was derived."""
+        """The derived program, with its counts of operations."""
         return self._once("program", lambda: Program(self))
 
     def derive(self, form: str) -> str:
-        """What ``lagrangian derive`` prints: ``markdown``, ``latex``, ``html``, ``rust``, ``c`` or ``program``."""
+        """What ``lagrangian derive`` prints in a form: ``markdown``, ``latex``, ``html``, ``rust``, ``c`` or ``program``."""
         return str(self._program.derive(form))
 
     def evaluate(
@@ -447,7 +446,7 @@ class Machine(_native.Machine):
         parameters: Optional[Mapping[str, Any]] = None,
         singular: str = "raise",
     ) -> Evaluation:
-        """Everything at states of any shape: see :class:`Evaluation`. Arguments are those of ``accelerations``."""
+        """Everything that the machine computes, at states of any shape: see :class:`Evaluation`. Arguments are those of ``accelerations``."""
         given = _batch.Arguments(self, q, v, t, u, parameters)
         try:
             numbers, found = _native.evaluate(self, *given.native(), _batch.policy(singular))
@@ -510,7 +509,7 @@ class Machine(_native.Machine):
         return f
 
     def jacobian(self, u: Any = None, parameters: Optional[Mapping[str, Number]] = None) -> Callable[[float, Any], np.ndarray]:
-        """``f(t, y)``: the derivatives of :meth:`rhs` by y, (2n, 2n); exact, not differences."""
+        """``f(t, y)``, the derivatives of :meth:`rhs` by y, (2n, 2n); they are exact and not differences."""
         machine = self._set(dict(parameters or {})) if parameters else self
         n = len(self.coordinates)
         inputs = _batch.vectors(u, tuple(self.inputs), list(machine.inputs.values()), "u", "input")

@@ -36,7 +36,7 @@ def rate_names(coordinates: Sequence[str]) -> Tuple[str, ...]:
 
 
 class Named(np.ndarray):
-    """A read-only array (…, n) that is indexed by name as well: ``q["theta1"]`` is ``q[..., 0]``.
+    """A read-only array (…, n) that can also be indexed by name: ``q["theta1"]`` is ``q[..., 0]``.
 
     In rates v a state of first order has its own name, ``v["i"]``; ``v["integral(i)"]`` is the same number.
     """

@@ -18,26 +18,26 @@ class Orbit:
     start: State
     """A state of the orbit."""
     advance: Mapping[str, float]
-    """By how much coordinates advance in a period: as given, or as found for those on which nothing depends."""
+    """By how much coordinates advance in a period: as given, or as computed for coordinates on which nothing depends."""
     monodromy: np.ndarray
-    """How the state one period later changes with the state, (k, k): the numbers that ``states`` names."""
+    """The derivative of the state one period later by the state, (k, k), in the numbers that ``states`` names."""
     states: Tuple[str, ...]
-    """The numbers of a state that constraints leave independent, all of them where there are none, except for coordinates on which nothing
-    depends and that advance: coordinates, then rates ``der(x)`` and states of first order."""
+    """The independent numbers of a state: coordinates, then rates ``der(x)`` and states of first order. Without constraints these are all
+    numbers, except for advancing coordinates on which nothing depends."""
     multipliers: np.ndarray
-    """Floquet multipliers, complex (k,): that of the motion itself first, where there is one, then in descending size."""
+    """Floquet multipliers, complex (k,): first the trivial one, if there is one, then the others by decreasing magnitude."""
     errors: np.ndarray
     """The uncertainty of each multiplier, (k,)."""
     trivial: np.ndarray
-    """Whether a multiplier is 1 because the same motion shifted in time is a motion, too, (k,)."""
+    """Whether a multiplier is 1 because the motion shifted in time is also a motion, (k,)."""
     stability: str
     """``"stable"``, ``"unstable"``, or ``"undecided"`` where no multiplier is outside the unit circle and some are on it."""
     autonomous: bool
-    """Whether nothing drives the machine."""
+    """Whether the machine has no explicit time."""
     family: int
-    """By how many numbers orbits near this one differ, such as their energy, not counting their phase."""
+    """The number of parameters of the family of orbits that this one belongs to, such as their energy; their phase does not count."""
     residual: float
-    """The largest number by which the motion does not close, over ``max(1, abs(x))``."""
+    """The largest difference between a number x of the state one period later and at the start, divided by ``max(1, abs(x))``."""
 
     def __init__(self, machine: Any, document: Mapping[str, Any]) -> None:
         names = tuple(machine.coordinates)
@@ -62,7 +62,7 @@ class Orbit:
         self._machine = machine
 
     def simulate(self, periods: float = 1.0, **options: Any) -> Any:
-        """The motion over this many periods, as ``simulate`` returns it."""
+        """A run over this many periods."""
         until = self.start.t + periods * self.period
         return self._machine.simulate(until, start=self.start, **options)
 
@@ -86,10 +86,10 @@ def orbit(
     """The periodic motion near a start.
 
     ``period`` in s, or a formula of parameters, ``"2*pi/omega"``, is that of the drive or a multiple of it; for a machine
-    that nothing drives it may be left out, or ``near`` gives an estimate of it. ``start`` and ``rate`` are mappings from
-    coordinates to numbers or arrays (n,). ``keep`` names the numbers of the start that stay, ``"theta"`` or ``"der(theta)"``;
-    ``advance`` gives by how much coordinates advance in a period; ``shift`` names those that may advance by any amount, since nothing
-    depends on them: all of these where neither is given; ``settle`` is for how many seconds the motion runs before the search.
+    without explicit time it may be left out, or ``near`` gives an estimate of it. ``start`` and ``rate`` are mappings from
+    coordinates to numbers or arrays (n,). ``keep`` names start values that the search does not change, ``"theta"`` or ``"der(theta)"``;
+    ``advance`` gives by how much coordinates advance in a period; ``shift`` names coordinates that may advance by any amount, since nothing
+    depends on them, by default all such coordinates; ``settle`` is the time, in s, for which the machine runs before the search.
     """
     options: List[str] = [*settings(self), *_places(self, "--start", start), *_places(self, "--rate", rate)]
     if isinstance(start, State) and rate is None:

@@ -26,7 +26,7 @@ class Sensitivities:
     by: Tuple[str, ...]
     """The variables: parameters, inputs, ``start(x)``, ``rate(x)``."""
     sensitivities: np.ndarray
-    """(k, 2n, s): of coordinates, then of rates, by each variable, in the units of these by its unit."""
+    """(k, 2n, s): the derivatives of coordinates, then of rates, by each variable, in the unit of the former over that of the latter."""
 
     def __init__(self, machine: Any, by: Tuple[str, ...], t: np.ndarray, arrays: Sequence[np.ndarray]) -> None:
         names = machine.coordinates
@@ -69,19 +69,19 @@ def sensitivities(
     max_steps: int = 10_000_000,
     keep: Optional[Sequence[str]] = None,
 ) -> Sensitivities:
-    """The motion from t0 until a time, with its derivatives by parameters, inputs, and numbers of the start.
+    """The motion from t0 until a time, with its derivatives by parameters, inputs and start values.
 
     ``by``: names of parameters and inputs, ``start(x)``, ``rate(x)``. Everything else is as in :meth:`simulate`; inputs are
-    constant. Numbers of the start do not follow from parameters here: where the spec computes one from a parameter, the derivative by the
+    constant. Start values are independent of parameters here: if the spec computes one from a parameter, the derivative by the
     parameter does not include that dependence.
 
-    A start on constraints changes with the variables as a run would move it onto the constraints, with the numbers of ``keep`` or of
-    the spec kept, and its derivatives obey the constraints from there on. Nothing is projected on the way: if errors of steps move
-    the motion or its derivatives off the constraints by more than 1e-5 of their values, a ``ValueError`` is raised, as it is for
-    constraints that follow from others.
+    If the machine has constraints, the start depends on the variables by its projection onto the constraints, in which the values of
+    ``keep``, by default those that the spec keeps, stay as they are; the derivatives satisfy the constraints from the start on. Later
+    states are not projected: if the motion or its derivatives violate the constraints by more than 1e-5 of their values, a
+    ``ValueError`` is raised. It is also raised for constraints that follow from others.
 
-    Derivatives are continued across impacts and other changes of contacts, and where the spec names ``charts`` the motion is
-    computed in the Cartesian ones, as by ``lagrangian sensitivities``; both only from ``t0 = 0`` and at equal intervals.
+    Derivatives are continued across impacts and other changes of contacts, and if the spec names ``charts`` the motion is
+    computed in Cartesian coordinates, as by ``lagrangian sensitivities``; both require ``t0 = 0`` and equal intervals.
     """
     from ._linear import _start
 

@@ -12,11 +12,11 @@ from . import _batch, _native
 
 
 class Table:
-    """Values at instants, which an input follows; a step of the run ends wherever they are not smooth enough.
+    """Values at instants, which an input follows. A step of the run ends wherever the interpolant is not smooth enough.
 
     ``kind`` is ``"hold"`` (a value holds until the next), ``"linear"`` or ``"cubic"`` (a spline with two continuous
-    derivatives); ``beyond``, for times before the first instant and after the last, is ``"hold"``, ``"error"`` or ``"repeat"``. Times,
-    (k,), in s, increase; values, (k,), are in the unit of the input.
+    derivatives); ``beyond``, for times before the first instant and after the last, is ``"hold"``, ``"error"`` or ``"repeat"``. The times,
+    (k,), in s, must increase; the values, (k,), are in the unit of the input.
     """
 
     def __init__(self, t: Any, values: Any, kind: str = "linear", beyond: str = "hold") -> None:
@@ -41,8 +41,8 @@ class Table:
 
 
 class Sampled:
-    """A controller that samples the machine at the start and every ``every`` seconds after it; the value that it sets acts ``delay``
-    seconds later and holds until it is set again.
+    """A controller that samples the machine at the start and then once every ``every`` seconds. The value that it sets acts ``delay``
+    seconds later, until the next one does.
 
     ``what`` is a formula of the spec's language or a function ``f(t, q, v)``, which is called once for each sample, in the order of
     time, and may therefore have a state of its own.
@@ -73,7 +73,7 @@ Driven = Tuple[
 
 
 def law_of(what: Any, name: str, unit: str) -> Optional[Dict[str, Any]]:
-    """What drives an input, as a plan of a sweep holds it; None if it is a number or a function."""
+    """The law of an input in the form of a sweep's plan; None if it is a number or a function."""
     if isinstance(what, (str, os.PathLike)):
         text = os.fspath(what)
         law: Dict[str, Any] = json.loads(_native.written(text, name, unit))
@@ -88,7 +88,7 @@ def law_of(what: Any, name: str, unit: str) -> Optional[Dict[str, Any]]:
 
 
 def driven(what: Any, name: str, unit: str) -> Optional[Driven]:
-    """What drives an input in a run; None if it is a number."""
+    """The law of an input in a run; None if it is a number."""
     law = law_of(what, name, unit)
     if law is None:
         if isinstance(what, Sampled):

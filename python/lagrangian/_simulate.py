@@ -17,11 +17,11 @@ from .errors import RunError, unknown
 
 
 class Event:
-    """A function of time and state whose changes of sign are events.
+    """A function of time and state whose sign changes are events.
 
     ``what`` is a formula of the spec's language in t, coordinates, rates, parameters, inputs and outputs, or a function
-    ``f(t, q, v)``. ``crossing`` is ``"any"``, ``"rising"`` or ``"falling"``; ``terminal=n`` ends the run at the n-th, True at
-    the first.
+    ``f(t, q, v)``. ``crossing`` is ``"any"``, ``"rising"`` or ``"falling"``; ``terminal=n`` ends the run at the n-th event,
+    ``True`` at the first.
     """
 
     def __init__(
@@ -55,24 +55,24 @@ class Happened(NamedTuple):
 
 
 class Energy(NamedTuple):
-    """The balance of energy of a run, in J."""
+    """The energy balance of a run, in J."""
 
     residual: float
-    """end − start − work + dissipated: the error left by rounding and the tolerance."""
+    """end − start − work + dissipated, 0 except for rounding and the errors that the tolerance permits."""
     work: float
     """Work of drives, applied forces and inputs."""
     dissipated: float
-    """Lost in dampers and by friction and impacts."""
+    """Energy dissipated by dampers, friction and impacts."""
     kinetic: np.ndarray
     """At the instants of the run, (k,)."""
     potential: np.ndarray
     """At the instants of the run, (k,)."""
     constraint_residual: float
-    """The greatest residual of the constraints, relative to the size of their terms."""
+    """The largest residual of the constraints during the run, relative to the size of their terms."""
 
 
 class Run:
-    """A run: instants, states, events, and everything that can be observed. Immutable."""
+    """The result of a run: its samples, its events, and everything that can be observed along it. Immutable."""
 
     def __init__(self, machine: Any, native: _native.Run, keywords: Dict[str, Any], error: Optional[str]) -> None:
         self.machine = machine
@@ -85,7 +85,7 @@ class Run:
         n = len(names)
         t.flags.writeable = False
         self.t: np.ndarray = t
-        """The instants that were kept, (k,), in s."""
+        """The instants of the samples, (k,), in s."""
         self.q = Named(q.reshape(len(t), n), names)
         """Coordinates, (k, n)."""
         self.v = rates(v.reshape(len(t), n), names)
@@ -113,8 +113,8 @@ class Run:
 
     @property
     def columns(self) -> Tuple[str, ...]:
-        """The names of everything that was observed: coordinates, ``der(x)``, outputs, ``multiplier(rod)``, ``normal(belt)``,
-        energies, inputs; the columns of the command's tables."""
+        """The names of the columns, which are those of the command's tables and the inputs: coordinates, ``der(x)``, outputs,
+        ``multiplier(rod)``, ``normal(belt)``, energies, inputs."""
         return tuple(self._observed())
 
     @property
@@ -144,7 +144,7 @@ class Run:
         )
 
     def at(self, t: Any) -> State:
-        """The state at times of any shape and order, by the continuous extension of the method."""
+        """The state at times of any shape and order, by the dense output of the method."""
         times = _batch.number_array(t, "t")
         order = np.argsort(times, axis=None, kind="stable")
         flat = times.ravel()[order]
@@ -164,9 +164,10 @@ class Run:
         return self._state((found[back], q.reshape(-1, n)[back], v.reshape(-1, n)[back]), times.shape)
 
     def observe(self, t: Any) -> Any:
-        """Everything at times of any shape S and order, as :meth:`Machine.evaluate` returns it, with the inputs of the run.
+        """Everything that :meth:`Machine.evaluate` computes, at times of any shape S and order, with the inputs of the run.
 
-        ``observe(t)[name]`` is a column of the run at these times, S: there a contact sticks or slides as it did in the run.
+        ``observe(t)[name]`` is a column of the run at these times, of shape S. In the columns a contact sticks or slides as it did in
+        the run; the other results follow from the state alone.
         """
         state = self.at(t)
         times = np.asarray(state.t, dtype=np.float64)
@@ -199,24 +200,24 @@ class Run:
 
     @property
     def end(self) -> State:
-        """The end."""
+        """The state at the end."""
         return self._state(self._native.end, ())
 
     @property
     def ending(self) -> str:
-        """``"time"``, ``"event NAME"``, ``"stop"`` or ``"error"``."""
+        """What ended the run: ``"time"``, ``"event NAME"``, ``"stop"`` or ``"error"``."""
         return "error" if self.error is not None else str(self._native.ending)
 
     @property
     def events(self) -> List[Happened]:
-        """The events, in order."""
+        """The events, in the order of time."""
         names, _, (t, q, v) = self._native.events()
         of = self.machine.coordinates
         q, v = q.reshape(len(t), len(of)), v.reshape(len(t), len(of))
         return [Happened(float(t[i]), name, Named(q[i], of), rates(v[i], of)) for i, name in enumerate(names)]
 
     def event(self, name: str) -> State:
-        """The states at the events of a name: t (e,), q and v (e, n)."""
+        """The states at the e events with this name: t (e,), q and v (e, n)."""
         names, _, (t, q, v) = self._native.events()
         known = [*self._keywords["event_names"], *names]
         if name not in known:
@@ -226,15 +227,15 @@ class Run:
         return self._state((t[chosen], q.reshape(-1, n)[chosen], v.reshape(-1, n)[chosen]), (int(chosen.sum()),))
 
     def poincare(self, event: str) -> np.ndarray:
-        """The states y at the events of a name, (e, 2n)."""
+        """The states y at the e events with this name, coordinates and then rates: (e, 2n)."""
         return self.event(event).y
 
     @property
     def energy(self) -> Energy:
-        """The balance of energy."""
+        """The energy balance."""
         balance = self._native.energy()
         if balance is None:
-            raise ValueError("the balance of energy was not kept: energy=False")
+            raise ValueError("the energy balance was not computed: energy=False")
         return Energy(
             residual=balance["residual"],
             work=balance["work"],
@@ -251,21 +252,22 @@ class Run:
 
     @property
     def warnings(self) -> List[str]:
-        """Warnings about a run, even if it ended well."""
+        """Warnings, which a run may have although it ended without an error."""
         return list(self._native.warnings)
 
     @property
     def choices(self) -> List[Tuple[float, str, str]]:
-        """The methods that a run with ``method="auto"`` used: from when, in s, which, and why; empty for other runs."""
+        """The methods that a run with ``method="auto"`` used, in order: the time from which it used each, in s, its name, and why it was
+        chosen. Empty for other runs."""
         return list(self._native.choices)
 
     def to_numpy(self, names: Optional[Sequence[str]] = None) -> np.ndarray:
-        """Columns side by side, (k, columns)."""
+        """The columns of these names, or all of them, as an array (k, columns)."""
         chosen = self.columns if names is None else names
         return np.stack([self[name] for name in chosen], axis=-1)
 
     def to_pandas(self) -> Any:
-        """A DataFrame of all columns, its index t."""
+        """A DataFrame of all columns, whose index is t."""
         import pandas
 
         frame = pandas.DataFrame({name: self[name] for name in self.columns})
@@ -274,7 +276,7 @@ class Run:
         return frame
 
     def to_arrow(self) -> Any:
-        """A ``pyarrow.Table`` of t and all columns, units in the metadata of the fields."""
+        """A ``pyarrow.Table`` of t and all columns, with their units in the metadata of the fields."""
         import pyarrow
 
         fields = [pyarrow.field("t", pyarrow.float64(), metadata={"unit": "s"})]
@@ -285,7 +287,7 @@ class Run:
         return pyarrow.table([pyarrow.array(np.asarray(a)) for a in arrays], schema=pyarrow.schema(fields))
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes t and all columns: ``.csv``, ``.npz``, ``.parquet`` or ``.mat``; or the page, ``.html``. The file is written
+        """Writes t and all columns: ``.csv``, ``.npz``, ``.parquet`` or ``.mat``; or the report page, ``.html``. The file is written
         under a temporary name and renamed when it is complete."""
         path = os.fspath(path)
         ending = os.path.splitext(path)[1].lower()
@@ -324,7 +326,7 @@ class Run:
         _written_beside(path, writers[ending])
 
     def as_ivp(self) -> Any:
-        """As ``scipy.integrate.solve_ivp`` returns it: t, y (2n, k), sol, t_events, y_events, status, message, success, nfev."""
+        """The run in the form that ``scipy.integrate.solve_ivp`` returns: t, y (2n, k), sol, t_events, y_events, status, message, success, nfev."""
         from scipy.optimize import OptimizeResult
 
         events = [self.event(name) for name in self._keywords["event_names"]]
@@ -368,13 +370,13 @@ class Run:
         return np.fft.rfftfreq(count, abs(float(steps[0]))), amplitudes
 
     def report(self) -> "Report":
-        """The page that shows the machine in motion, with curves, parameters and equations; in a notebook the page itself."""
+        """The report page, which shows the machine in motion, with curves, parameters and equations. A notebook displays it."""
         if not self._keywords["dense"]:
             raise ValueError("the steps of this run were forgotten, and its page needs them: dense=False")
         return Report(self)
 
     def _repr_html_(self) -> Optional[str]:
-        """The page in a notebook, in a frame that can reach nothing around it; a run without steps is described in words."""
+        """The report page for a notebook, in a frame without access to the notebook; None if the steps were not kept."""
         return self.report()._repr_html_() if self._keywords["dense"] else None
 
     def _page(self) -> str:
@@ -386,7 +388,7 @@ class Run:
         return page
 
     def plot(self, *names: str) -> Any:
-        """A matplotlib figure of columns over t; of all coordinates if none is named."""
+        """A matplotlib figure of these columns over t, by default of all coordinates."""
         import matplotlib.pyplot as plt
 
         chosen = names or self.machine.coordinates
@@ -416,7 +418,7 @@ class Run:
 
 
 class Report:
-    """The page of a run: one HTML file that needs nothing else."""
+    """The report page of a run: one HTML file that needs no other file and no network."""
 
     def __init__(self, run: Run) -> None:
         self._run = run
@@ -430,7 +432,7 @@ class Report:
         return self._made
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes it, ``.html``, under a temporary name, and renames it when it is complete."""
+        """Writes the page, ``.html``, under a temporary name, and renames the file when it is complete."""
         path = os.fspath(path)
         if os.path.splitext(path)[1].lower() not in (".html", ".htm"):
             raise ValueError(f"{path}: the ending must be .html")
@@ -488,7 +490,7 @@ def _umask() -> int:
 
 
 def in_notebook() -> bool:
-    """Whether a notebook shows what is written."""
+    """Whether this process is the kernel of a notebook, which shows what is written to stderr."""
     shell = sys.modules.get("IPython")
     kernel = shell.get_ipython() if shell is not None else None
     return kernel is not None and hasattr(kernel, "kernel")
@@ -543,27 +545,32 @@ def simulate(
     on_error: str = "raise",
     progress: Any = "auto",
 ) -> Run:
-    """Runs the machine from t0 until a time, in s.
+    """Runs the machine from ``t0`` to ``until``, in s.
 
-    * ``start``, ``rate``: mappings from names to numbers, in place of the spec's, or arrays (n,); or ``start`` is a State, as
-      ``run.end``.
+    * ``start``, ``rate``: mappings from names to numbers, which replace those of the spec, or arrays (n,); or ``start`` is a State,
+      such as ``run.end``, and ``rate`` is omitted.
     * ``inputs``: a mapping from names to what drives each: a number, a formula of the spec's language (``"30*N*theta +
       5*N*s*der(theta)"``), a function ``f(t, q, v)``, a :class:`Table` or its arrays ``(t, values)``, a table in a file as for the command
       (``"run.csv:push,hold"``, or a path), or a :class:`Sampled` controller; or one function of all inputs, which returns an
-      array (m,) or a mapping. Functions must depend on their arguments alone, since they are called out of order in time, except
-      those of sampled controllers.
+      array (m,) or a mapping. Functions must depend on their arguments alone, since they are called at times in any order; those of
+      sampled controllers are called in the order of time.
     * ``events``: a mapping from names to formulas, functions ``f(t, q, v)``, or :class:`Event`. Each change of sign is located to
-      within the rounding of time. A callable's attributes ``terminal`` and ``direction`` count as in SciPy.
-    * ``stop``: a formula that is greater than 0, or a function that is true, at the end of the step where the run ends.
-    * What is kept: instants ``every`` so many seconds, or the instants ``at``; by default 1000 intervals. ``dense=False`` forgets
-      the steps, which ``run.at`` needs.
-    * ``tolerance`` is ``relative`` and ``absolute`` at once; ``absolute`` may be a mapping from names to numbers.
-    * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5``, ``radau9`` and ``radau13`` for stiff machines, ``taylor``; ``auto``,
-      which continues with ``taylor`` in long runs where this costs less, with a Radau method where the machine is stiff, and with
-      time stepping where contacts accumulate, see ``run.choices``; ``one_of`` counts the runs that share the derivation of a
-      series, as the rows of a sweep do; with steps of ``longest_step`` ``rk4``,
-      ``semi-implicit-euler``, ``gauss4``, ``gauss6``, ``gauss8``, ``rattle``, ``generalized-alpha``, ``moreau``.
-    * ``keep``: numbers of the start that constraints do not move, ``"theta"`` or ``"der(theta)"``.
+      within the rounding of time. The attributes ``terminal`` and ``direction`` of a function have the same meaning as in SciPy.
+    * ``stop``: the run ends after the first step at whose end this formula is greater than 0, or this function returns true.
+    * ``every``, ``at``: the samples are this many seconds apart, or are at these instants; by default they divide the run into 1000
+      intervals. With ``dense=False`` the steps are not kept, and ``run.at`` is not available.
+    * ``energy``: whether the energy balance is computed.
+    * ``tolerance`` sets both ``relative`` and ``absolute``, which replace it where they are given; ``absolute`` may be a mapping from
+      names to numbers.
+    * ``method``: with error control ``dop853``, ``dopri5``, ``bs32``, ``taylor``, and for stiff machines ``radau5``, ``radau9`` and
+      ``radau13``; in steps of the fixed length ``longest_step``, in s, ``rk4``, ``semi-implicit-euler``, ``gauss4``, ``gauss6``,
+      ``gauss8``, ``rattle``, ``generalized-alpha`` and ``moreau``. ``auto`` chooses, and may change its choice during the run
+      (``run.choices``): ``taylor`` in long runs where this costs less, a Radau method where the machine is stiff, and time stepping
+      where contacts change too often. ``one_of`` is the number of runs that share the derivation of a series, as the rows of a sweep
+      do.
+    * ``first_step``: the length of the first step, in s; ``max_steps``: the largest number of steps.
+    * ``keep``: start values, ``"theta"`` or ``"der(theta)"``, that stay as they are if the start does not satisfy the constraints; the
+      others are corrected. By default those that the spec keeps.
     * ``progress``: ``"auto"`` (a line on a terminal after 2 s), False, or ``f(fraction, t, steps)``.
 
     A run that ends with an error raises :class:`RunError`, with the part that was computed; ``on_error="return"`` returns that part.

@@ -88,18 +88,18 @@ class Sweep:
     def __init__(self, machine: Any, plan: str, columns: List[_Column], samples: Optional[List[_Column]], keywords: Dict[str, Any]) -> None:
         self.machine = machine
         self.plan = plan
-        """The plan, from which every chunk can be made again: JSON."""
+        """The plan as JSON, from which every chunk can be computed again."""
         self._columns = {name: values for name, _, values in columns}
         self.units: Mapping[str, str] = {name: unit for name, unit, _ in columns if unit is not None}
         self.samples: Optional[Dict[str, np.ndarray]] = None
-        """With ``record="every=…"`` or ``"event=…"``: long columns ``run``, ``t``, coordinates and rates, and ``event``."""
+        """With ``record="every=…"`` or ``"event=…"``, all samples of all runs: columns ``run``, ``t``, coordinates, rates, and ``event``."""
         if samples is not None:
             self.samples = {name: values for name, _, values in samples}
         self._keywords = keywords
 
     @property
     def columns(self) -> Tuple[str, ...]:
-        """Their names: ``run``, what was varied, ``status``, ``error``, ``t``, the end state, recorded instants ``x@0.5``,
+        """The names of the columns: ``run``, the varied quantities, ``status``, ``error``, ``t``, the end state, recorded instants ``x@0.5``,
         reductions, ``steps``, ``energy residual``."""
         return tuple(self._columns)
 
@@ -114,20 +114,20 @@ class Sweep:
 
     @property
     def failed(self) -> np.ndarray:
-        """The numbers of runs that failed; ``["error"]`` says why."""
+        """The numbers of the runs that failed; the column ``error`` gives the reasons."""
         return np.flatnonzero(self["status"] == "failed")
 
     @property
     def path(self) -> Optional[str]:
-        """Where the rows are kept, if they are."""
+        """The file or folder with the rows; None if there is none."""
         return self._keywords["path"]  # type: ignore[no-any-return]
 
     def grid(self, name: str) -> np.ndarray:
-        """A column in the shape of the design: an axis for each thing that is varied, in order."""
+        """A column in the shape of the design, with an axis for each varied quantity, in their order."""
         return self[name].reshape(self._keywords["shape"])
 
     def run(self, i: int, **settings: Any) -> Any:
-        """Run i, repeated with all its steps; settings as for ``simulate``."""
+        """Repeats run i and returns it with all its steps; settings are as for ``simulate``."""
         i = range(len(self))[i]
         values = {name: float(self[name][i]) for name in self._keywords["varied"]}
         start, rate = dict(self._keywords["start"]), dict(self._keywords["rate"])
@@ -142,7 +142,7 @@ class Sweep:
         return machine.simulate(self._keywords["until"], **plain)
 
     def to_pandas(self) -> Any:
-        """A DataFrame, its index the number of the run."""
+        """A DataFrame, whose index is the number of the run."""
         import pandas
 
         frame = pandas.DataFrame({name: values for name, values in self._columns.items() if name != "run"})
@@ -151,7 +151,7 @@ class Sweep:
         return frame
 
     def to_arrow(self) -> Any:
-        """A ``pyarrow.Table``, units in the metadata of the fields and the plan in that of the table."""
+        """A ``pyarrow.Table``, with units in the metadata of the fields and the plan in that of the table."""
         import pyarrow
 
         arrays = {name: pyarrow.array(list(v) if v.dtype == object else v) for name, v in self._columns.items()}
@@ -186,11 +186,11 @@ class Sweep:
         only: Optional[Mapping[str, float]] = None,
         samples: bool = False,
     ) -> None:
-        """Draws columns over what was varied, as ``lagrangian map``: curves over one parameter, colours over two, into an ``.svg``, or a
-        page ``.html`` that shows the numbers under the pointer.
+        """Draws columns over the varied quantities, as ``lagrangian map`` does: curves over one, a colour map over two. The file is an
+        ``.svg``, or a page ``.html`` that shows the numbers under the pointer.
 
-        ``over``: over which of the varied parameters, by default all of them. ``only`` leaves out rows with
-        other values. ``samples`` draws :attr:`samples`, a dot for each: a bifurcation diagram where they were recorded at events.
+        ``over`` names the varied quantities of the axes, by default all of them. ``only`` leaves out rows with
+        other values. ``samples`` draws a dot for each of :attr:`samples`, which is a bifurcation diagram if they were recorded at events.
         """
         from ._command import told_of_file
 
@@ -362,7 +362,7 @@ def sweep(
     threads: Optional[int] = None,
     progress: Any = "auto",
 ) -> Sweep:
-    """Runs the machine for many values: one row for each run, in the order of the names, the last one fastest.
+    """Runs the machine for many values. There is one row for each run; the value of the last varied name changes fastest.
 
     * ``vary``: a mapping from a parameter, an input, a family, ``start(q)`` or ``rate(q)`` to ``(a, b, k)``, which are k values
       from a to b, to an array, or to a distribution (:class:`Uniform`, :class:`LogUniform`, :class:`Normal`,
@@ -371,14 +371,14 @@ def sweep(
     * ``record``: ``"end"``, ``"at=0.5,1"``, ``"every=0.01"``, or several of these; ``"event=NAME,…"`` has samples at every event
       of these names, from ``after`` on.
     * ``reduce``: a mapping from names to reductions, ``"max(abs(x))"``: ``max``, ``min``, ``range``, ``mean``, ``rms``,
-      ``integral``, ``first``, ``last``, ``when_max``, ``when_min`` of an expression, ``count``, ``first``, ``last`` of an event;
-      from ``after`` on, in s.
+      ``integral``, ``first``, ``last``, ``when_max``, ``when_min`` of an expression; ``count``, ``first``, ``last`` of an event;
+      all from the time ``after`` on, in s.
     * ``method``: as for ``simulate``; with ``auto``, the default of the command, each run chooses its methods, and a column ``methods`` tells which.
     * ``inputs``, ``events``: numbers, formulas, tables and sampled formulas, as for ``simulate``. Functions in Python are
       rejected, since they are not portable.
-    * ``out``: a ``.csv``, a ``.parquet``, or a folder, to which the rows go as they are computed: an interruption, by Ctrl-C, a full
-      disk or a power cut, costs no more than the chunks in progress, and the same call continues. ``fresh`` begins again. Without
-      ``out`` rows are only in memory.
+    * ``out``: a ``.csv``, a ``.parquet``, or a folder, to which the rows are written as they are computed. After an interruption, by
+      Ctrl-C, a full disk or a power cut, only the chunks in progress are lost, and the same call continues the sweep; ``fresh`` begins
+      again. Without ``out`` rows are only in memory.
     * ``engine``: None for the cores of this machine, ``"ray"``, ``"dask"``, or a client of ``dask.distributed``. All give the same
       bits.
 
@@ -486,7 +486,7 @@ def sweep(
 
 
 class _Place:
-    """The output of a sweep's rows, as the command defines it."""
+    """The file or folder of a sweep's rows, by the rules of the command."""
 
     def __init__(self, out: Any) -> None:
         path = os.fspath(out)

@@ -39,20 +39,20 @@ class Symbolic:
     dissipation: Any
     """Rayleigh's function D in W."""
     constraints: Mapping[str, Any]
-    """The constraints, expressions that are 0, by name: of positions, or of rates where they do not follow from positions."""
+    """The constraints by name, as expressions that are 0: of positions if they are holonomic, otherwise of rates."""
     constraint_jacobian: Any
     """G(q, t): a Matrix (c, n); accelerations obey G a = γ."""
     constraint_bias: Any
     """γ(q, v, t): a Matrix (c, 1)."""
     outputs: Mapping[str, Any]
-    """By name; accelerations may occur."""
+    """The outputs by name; they may contain accelerations."""
 
     def __init__(self, **parts: Any) -> None:
         self.__dict__.update(parts)
 
     def dynamicsymbols(self) -> "Symbolic":
-        """The same with functions of time in place of coordinates, and their derivatives in place of rates and accelerations, as
-        in ``sympy.physics``."""
+        """The same equations with functions of time in place of coordinates, and with their derivatives in place of rates and
+        accelerations, as in ``sympy.physics``."""
         from sympy.physics.mechanics import dynamicsymbols
 
         time = dynamicsymbols._t

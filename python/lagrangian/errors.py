@@ -6,12 +6,12 @@ from typing import Any, NamedTuple, Optional, Sequence, Tuple
 
 
 class Diagnostic(NamedTuple):
-    """A mistake of a spec, or a warning, at its place."""
+    """An error in a spec, or a warning, with its position."""
 
     severity: str
     """``"error"`` or ``"warning"``."""
     code: str
-    """The kind of mistake, ``unknown-name``: the same from version to version."""
+    """The kind of error, such as ``unknown-name``; it stays the same across versions."""
     message: str
     help: Optional[str]
     """What to write instead."""
@@ -25,7 +25,7 @@ class Diagnostic(NamedTuple):
 class LagrangianError(Exception):
     """The base of all exceptions of this package.
 
-    They can be pickled: an exception is made again from the arguments that it was made from.
+    They can be pickled: an exception is restored from the arguments of its constructor.
     """
 
     def __reduce__(self) -> Any:
@@ -35,7 +35,7 @@ class LagrangianError(Exception):
 
 
 class SpecError(LagrangianError, ValueError):
-    """A spec has mistakes; the text of the exception underlines the words."""
+    """A spec has errors; the text of the exception underlines the wrong words."""
 
     def __init__(self, text: str, diagnostics: Sequence[Any] = ()) -> None:
         super().__init__(text)
@@ -85,9 +85,9 @@ class SingularError(LagrangianError, ArithmeticError):
         self.coordinate = coordinate
         """The coordinate, or the constraint, at which elimination stopped."""
         self.ratio = ratio
-        """What remains of its element on the diagonal after elimination, relative to that element."""
+        """The pivot of the elimination, relative to the element on the diagonal."""
         self.index = () if index is None else index
-        """Which state of a batch."""
+        """The index of the state in a batch."""
         self._arguments = (text, coordinate, ratio, index)
 
 
@@ -97,7 +97,7 @@ class RunError(LagrangianError, RuntimeError):
     def __init__(self, text: str, t: Optional[float] = None, run: Any = None) -> None:
         super().__init__(text)
         self.t = t
-        """When, in s; None where the run could not begin."""
+        """The time of the error, in s; None if the run could not begin."""
         self.run = run
         """The part of the run before the error, if there is one."""
         self._arguments = (text, t, run)
@@ -114,7 +114,7 @@ class ExportError(LagrangianError, RuntimeError):
 
 
 def unknown(what: str, name: str, known: Sequence[str]) -> UnknownName:
-    """The error that nothing has this name, with a similar name."""
+    """The error for a name that does not exist, which suggests a similar one."""
     import difflib
 
     lower = {k.lower(): k for k in reversed(list(known))}

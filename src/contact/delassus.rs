@@ -11,7 +11,7 @@ use crate::{Singular, System, Vector};
 /// A row of the constraints that depends on others beyond this, relative to its length, adds nothing.
 const INDEPENDENT: f64 = 1e-10;
 
-/// From so many coordinates on it is worth while to leave out zeros of images: contacts of a pile move a few bodies each.
+/// The number of coordinates from which on it saves time to skip zeros of images: a contact of a pile moves only a few bodies.
 const MANY: usize = 16;
 
 /// Inertia at a state.

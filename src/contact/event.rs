@@ -19,8 +19,8 @@ pub struct ContactEvent<C> {
     pub direction: f64,
     /// In space the component of that direction along the second tangent; 0 elsewhere.
     pub across: f64,
-    /// By how much the time may be off, in s, where bounces were closed at the sum of all that were left, and in what follows within this time; 0
-    /// else.
+    /// A bound on the error of the time, in s, if bounces were ended at the sum of all that remained, and for events that follow within this time; otherwise
+    /// 0.
     pub time_error: f64,
     /// What an impact did.
     pub impact: Option<ContactImpact>,

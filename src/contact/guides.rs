@@ -1,13 +1,13 @@
-//! Guides beside unilateral contacts: what loads them.
+//! Guides beside unilateral contacts: their reactions.
 //!
-//! A guide is a pair of opposite contacts without play, of which at most one presses. It has no displacement along its normal, so that no row of `W` says what
-//! presses it. Instead its reaction is known as a form of everything that acts, with the multipliers `λ` of the constraints:
+//! A guide is a pair of opposite contacts without play, of which at most one presses. It has no displacement along its normal, so no row of `W` gives its normal
+//! force. Instead its reaction is known as a linear form of the accelerations, the forces and the multipliers `λ` of the constraints:
 //!
 //! ```text
 //! N = ν + ρ·a + χ·λ + κ·F,      M a = f + Wᵀ F + Gᵀ λ
 //! ```
 //!
-//! With `G z = χ`, the multipliers are gone: `χ·λ = z·(M a − f − Wᵀ F)`, and
+//! With `G z = χ`, the multipliers can be eliminated: `χ·λ = z·(M a − f − Wᵀ F)`, and
 //!
 //! ```text
 //! N = ν − z·f + (ρ + M z)·a + (κ − W z)·F
@@ -25,8 +25,8 @@ use crate::at::At;
 use crate::constraints::algebra::dot;
 use crate::{Pivot, Singular, System, Vector};
 
-/// By how much the coefficients of multipliers may miss the rows of the constraints, relative to the greatest, and up to which share of their terms forces that
-/// are undetermined leave a reaction as it is: beyond, it depends on how constraints or contacts share their load.
+/// The largest residual of the coefficients of multipliers in the rows of the constraints, relative to the largest coefficient, and the largest change of a reaction by
+/// undetermined forces, relative to its terms, with which a reaction counts as determined. Otherwise it depends on how constraints or contacts share their load.
 const DETERMINED: f64 = 1e-9;
 
 /// What the reactions of guides are made of at a state.

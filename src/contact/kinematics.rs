@@ -106,7 +106,7 @@ pub(super) fn contacts_with_face<S: System>(system: &S) -> Arc<[usize]> {
 }
 
 impl OnFace {
-    /// Of the three numbers that a machine says.
+    /// From the three numbers that a machine gives for a contact.
     pub fn new(numbers: &[f64]) -> OnFace {
         OnFace {
             height: numbers[0],

@@ -1,7 +1,7 @@
 //! Which contacts are near: all others stay open while the motion stays within a box around the present state.
 //!
 //! The gap of each contact has a lower bound in the box ([`System::least_gaps`](crate::System::least_gaps)). If it is positive, the contact cannot close there, and
-//! a run does not evaluate it until the motion leaves the box: contacts that are far away cost nothing in most steps, and one bound for each new box. (The neighbour
+//! a run does not evaluate it until the motion leaves the box. Contacts that are far away cost nothing in most steps, and one bound for each new box. (The neighbour
 //! lists of molecular dynamics do the same with balls: L. Verlet, Phys. Rev. 159 (1967) 98–103.)
 //!
 //! A run evaluates gaps along a polynomial: the Taylor polynomial in a step by series, the quintic through the ends in other steps. A polynomial lies between
@@ -17,8 +17,8 @@ use crate::{System, Vector};
 /// is 0 to rounding is never taken to be open throughout a box.
 const LEAST_REACH: f64 = 1e-9;
 
-/// By how much of its width a box is wider than the polynomial in it, whose coefficients are rounded; and the dense output of a step differs a little from its
-/// quintic.
+/// The fraction of its width by which a box is wider than the polynomial in it: the coefficients of the polynomial are rounded, and the dense output of a step differs
+/// a little from its quintic.
 const MARGIN: f64 = 0.1;
 
 /// A box that the motion leaves after fewer steps is followed by a wider one, and one that it leaves after more by a narrower one, with fewer
@@ -29,10 +29,10 @@ const MOST_STEPS: usize = 64;
 /// If more than this share of the contacts is near, all of them are evaluated together for some steps, and the next box is narrower.
 const MOST_NEAR: f64 = 0.25;
 
-/// For how many steps, at first; for twice as many each time, up to the second number.
+/// The number of these steps at first; it is doubled each time, up to the second number.
 const PAUSES: [usize; 2] = [32, 1024];
 
-/// The least and the greatest length of the motion that a box has room for, in steps.
+/// The least and the greatest length of the motion for which a box is made, in steps.
 const REACHES: [f64; 2] = [1.0 / 16.0, 4096.0];
 
 /// A range of times and of states.
@@ -59,9 +59,9 @@ pub(crate) struct Nearby {
     near: Arc<[usize]>,
     /// How many steps have stayed in the box.
     steps: usize,
-    /// For how many steps like the last one the box has room.
+    /// The number of steps like the last one for which the box was made.
     reach: f64,
-    /// For how many steps all contacts are evaluated, as long as too many are near; and for how many they were the last time.
+    /// The number of further steps in which all contacts are evaluated because too many are near; and that number when it was last set.
     pause: usize,
     last_pause: usize,
 }

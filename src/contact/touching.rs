@@ -89,12 +89,12 @@ pub(crate) struct UnilateralState {
     nearby: Option<Nearby>,
     /// What was evaluated last.
     latest: SharedWorkspace<LatestKinematics>,
-    /// Of the rolling of a contact, and of its second tangent, that contact: it has its gap and its normal force, and is open where
-    /// that is.
+    /// For the rolling resistance and the second tangent of a contact, that contact: they have its gap and its normal force, and are open if
+    /// it is.
     carrier: Vec<Option<usize>>,
     /// Which of these are second tangents. What a contact does along one tangent it does along both.
     across: Vec<bool>,
-    /// Of contacts that yield, their law and what it remembers.
+    /// For compliant contacts, their law and its history.
     compliance: Vec<Option<ComplianceState>>,
     pub(super) law: ImpactLaw,
     pub(super) order: ImpactOrder,
@@ -163,18 +163,18 @@ impl Clone for LatestKinematics {
     }
 }
 
-/// The contacts of a machine in the order of their names, each followed by what leans on it. A problem of several contacts may have several solutions, and which of
+/// The contacts of a machine in the order of their names, each followed by its rolling resistance and its second tangent. A problem of several contacts may have several solutions, and which of
 /// them is found depends on the order of its unknowns. In this order it does not depend on the order in which a spec lists the contacts.
 fn order_of_problems<S: System>(system: &S) -> Arc<[usize]> {
     let contacts: Vec<_> = system.unilateral_contacts().collect();
-    let leans = |k: usize| contacts[k].is_rolling_resistance || contacts[k].is_second_tangent;
-    let mut own: Vec<usize> = (0..contacts.len()).filter(|k| !leans(*k)).collect();
+    let is_carried = |k: usize| contacts[k].is_rolling_resistance || contacts[k].is_second_tangent;
+    let mut own: Vec<usize> = (0..contacts.len()).filter(|k| !is_carried(*k)).collect();
     own.sort_by(|a, b| by_words_and_numbers(contacts[*a].name, contacts[*b].name));
-    let with_leaning = |k: usize| {
-        let end = (k + 1..contacts.len()).find(|next| !leans(*next));
+    let with_carried = |k: usize| {
+        let end = (k + 1..contacts.len()).find(|next| !is_carried(*next));
         k..end.unwrap_or(contacts.len())
     };
-    own.into_iter().flat_map(with_leaning).collect()
+    own.into_iter().flat_map(with_carried).collect()
 }
 
 /// Compares names, with the numbers in them by their values: members of a family are in their order.
@@ -407,7 +407,7 @@ impl UnilateralState {
         self.speed
     }
 
-    /// By how much the forces of now speed up the closing of gaps at the most, were nothing closed, in m/s²; 0 where they close none.
+    /// The largest acceleration at which the present forces would close a gap if no contact were closed, in m/s²; 0 if they close none.
     pub fn pull<S: System>(&self, system: &S, at: At<'_, S>) -> f64 {
         let At { t, q, v, .. } = at;
         let Ok(free) = Self::free(system, at) else {
@@ -437,7 +437,7 @@ impl UnilateralState {
         }
     }
 
-    /// To which side each contact presses.
+    /// The side to which each contact presses.
     pub fn sides(&self) -> &[f64] {
         &self.sides
     }
@@ -504,7 +504,7 @@ impl UnilateralState {
         self.is_free() && self.stepped.is_none()
     }
 
-    /// The contact on which another leans, if that is the rolling of one.
+    /// The contact that carries this one, if this is the rolling resistance or the second tangent of another.
     pub fn carrier(&self, contact: usize) -> Option<usize> {
         self.carrier[contact]
     }
@@ -582,7 +582,7 @@ impl UnilateralState {
         }
     }
 
-    /// As it is looked at after the run, at any time until something changes: by then a slip may have turned anywhere.
+    /// The state for observation after the run, at any time until a contact changes: until then the direction of a slip may have changed.
     pub fn for_later_observation(&self) -> UnilateralState {
         UnilateralState {
             continues_through_rest: false,
@@ -649,7 +649,7 @@ impl UnilateralState {
         }
     }
 
-    /// An error of the machine with what is closed as constraints: of such a one it is said which contact it is.
+    /// An error of the machine with its closed contacts as constraints, with the contact to which the constraint belongs.
     pub fn explain<S: System>(&self, system: &S, error: StepError) -> StepError {
         let (StepError::Inconsistent { constraint, t, .. }
         | StepError::Singular {
@@ -674,7 +674,7 @@ impl UnilateralState {
         }
     }
 
-    /// Says of what leans what is said of the contact that it leans on.
+    /// Gives rolling resistances and second tangents the value of the contact that carries them.
     pub fn copy_from_carriers<T: Copy>(&self, values: &mut [T]) {
         for (k, on) in self.carrier.iter().enumerate() {
             if let Some(on) = on {

@@ -145,7 +145,7 @@ pub(super) fn effect(images: &[Vec<f64>], forces: &[f64]) -> (Vec<f64>, f64) {
     (sum, size)
 }
 
-/// Of undetermined forces those combinations that change no acceleration; `effects` holds the [`effect`] of each.
+/// The combinations of undetermined forces that change no acceleration; `effects` holds the [`effect`] of each force.
 pub(super) fn without_effect(by: Vec<Vec<f64>>, effects: &[(Vec<f64>, f64)]) -> Vec<Vec<f64>> {
     let scaled: Vec<Vec<f64>> = (effects.iter())
         .map(|(effect, size)| {
@@ -326,6 +326,9 @@ pub(super) fn solve_for_motion(
     let start = some.is_ok().then_some(answer.forces.as_slice());
     let problem = (g, b, &groups[..]);
     let mut found = distributed(contacts, problem, (start, true), HELD, memory);
+    if found.is_none() && some.is_ok() {
+        found = distributed_among_held(contacts, (g, b), &answer.forces, memory);
+    }
     if found.is_none() && rates_of_a_motion.is_none() {
         rates_of_a_motion = without_rounding_of_gaps(contacts, (g, b), memory);
         if let Some(rates) = &rates_of_a_motion {
@@ -339,6 +342,50 @@ pub(super) fn solve_for_motion(
     }
     answer.shared_otherwise = depends;
     some
+}
+
+/// The solution with the distribution of the rule among the contacts that do not open with these forces, if it leaves the others open. Of feet of a rigid body whose rates are almost those of a
+/// motion one opens so slowly that contacts which yield would press there all the same, until they are very stiff.
+fn distributed_among_held(
+    contacts: &[ContactUnknowns],
+    (g, b): (&[f64], &[f64]),
+    forces: &[[f64; 2]],
+    memory: &mut Memory,
+) -> Option<Answer> {
+    let least = HELD * greatest(b);
+    let rows = || b.iter().zip(g.chunks_exact(b.len())).step_by(2);
+    let rates = |forces: &[[f64; 2]]| -> Vec<f64> {
+        rows()
+            .map(|(b, row)| b + dot(row, forces.as_flattened()))
+            .collect()
+    };
+    let (mut held, mut opens) = (contacts.to_vec(), vec![false; contacts.len()]);
+    for (k, rate) in rates(forces).into_iter().enumerate() {
+        opens[k] = match contacts[k] {
+            ContactUnknowns::Both { .. } | ContactUnknowns::Normal { .. } => {
+                forces[k][0] == 0.0 && rate > least
+            }
+            ContactUnknowns::OnCarrier { on, .. } | ContactUnknowns::ShareOfCarrier { on, .. } => {
+                opens[on]
+            }
+            ContactUnknowns::SecondTangent => opens[k - 1],
+            _ => false,
+        };
+        if opens[k] {
+            held[k] = ContactUnknowns::Nothing;
+        }
+    }
+    if !opens.contains(&true) {
+        return None;
+    }
+    let groups = sharing_contacts(&held, g, |_| true, &mut memory.sharing);
+    if groups.is_empty() {
+        return None;
+    }
+    let found = distributed(&held, (g, b, &groups), (Some(forces), true), HELD, memory)?;
+    let mut stay = rates(&found.forces).into_iter().zip(&opens);
+    stay.all(|(rate, opens)| !opens || rate >= -least)
+        .then_some(found)
 }
 
 /// The rates of contacts, with those of their normals as a motion of the machine makes them; none if they are so already, or differ by more than rounding.
@@ -606,16 +653,16 @@ mod tests {
             let (a, slope) = (2.09 / 6.18, -0.3 / 6.18);
             for (force, x) in answer.forces.iter().zip(x) {
                 let expected = a + slope * x / size;
-                // Rates that are 0 to 1e-11 tell forces at levers of this size.
+                // Rates that are 0 to within 1e-11 determine forces at levers of this size.
                 let error = (force[0] - expected).abs();
                 assert!(error <= 1e-11 / (size * size), "{size}: {answer:?}");
             }
         }
     }
 
-    /// Where the rates of the levers are too small to tell forces from rounding, but not so small that they are none, the answer says that it is another one.
+    /// If the rates of the levers are too small to determine forces, but larger than rounding, the answer states that another distribution was taken.
     #[test]
-    fn another_distribution_is_told() {
+    fn another_distribution_is_reported() {
         let (contacts, g, b) = three_feet([-1e-9, 3e-10, 1e-9], 0.3);
         let answer = solve(&contacts, &g, &b).expect("solved");
         assert_eq!(answer.shared_otherwise, [0, 1, 2]);

@@ -22,13 +22,17 @@
 //! one, and it is returned.
 
 mod interior;
+mod newton;
+mod single;
+mod sweeps;
 
 use std::vec;
 use std::vec::Vec;
 
-use super::lcp::{self, Unsolved};
+use super::lcp::Unsolved;
 use crate::implicit::lu::Lu;
 use interior::Interior;
+use newton::{Newton, Pace};
 
 /// What Φ is of a solution, relative to the size of the terms.
 const GOOD: f64 = 1e-13;
@@ -67,55 +71,39 @@ const STEPS: usize = 40;
 /// The most where another search follows that costs less than more of them.
 const FEW_STEPS: usize = 16;
 
-/// Φ that is rounding of a few operations: Newton's method ends.
-const ENOUGH: f64 = f64::EPSILON;
-
-/// By how much the diagonal of A is enlarged in Newton's method, for each unit of Φ, and at least.
-const YIELDING: f64 = 0.01;
-const LEAST_YIELDING: f64 = 1e-10;
-
-/// By what that is multiplied in cautious steps, after one that makes Φ smaller, and after another one, from at least this.
-const LESS_YIELDING: f64 = 0.1;
-const MORE_YIELDING: f64 = 100.0;
-const FIRST_YIELDING: f64 = 1e-8;
-
-/// How often a step is halved.
-const HALVINGS: usize = 6;
-
 /// In so many steps friction grows where a solution is followed from a small one, with at most so many sweeps in each.
 const FRICTIONS: usize = 16;
 const SWEEPS_OF_FRICTION: usize = 64;
-
-/// Directions in which the friction of one contact is looked for first.
-const DIRECTIONS: usize = 48;
-
-/// The cosine and the sine of the angle between two of these.
-const TURN: [f64; 2] = [0.991_444_861_373_810_4, 0.130_526_192_220_051_57];
-
-/// The most estimates of a direction between two of these.
-const MOST_ESTIMATES: usize = 60;
-
-/// The most corrections of a direction by Newton's method, and the greatest correction, in rad.
-const MOST_CORRECTIONS: usize = 10;
-const GREATEST_CORRECTION: f64 = 0.5;
-
-/// Directions of a contact of whose inertia elimination leaves less than this depend on each other.
-const DEPENDENT: f64 = 1e-9;
 
 /// A normal direction, or the tangent or both tangents of a contact.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Part {
     /// The place of a normal force among the unknowns.
     Normal(usize),
-    /// The places of one or two (`count`) tangential forces, which together are no greater than `μ` times the force at `on`, if there is
-    /// one, and `known_normal` that.
-    Disc {
-        places: [usize; 2],
-        count: usize,
-        friction: f64,
-        on: Option<usize>,
-        known_normal: f64,
-    },
+    /// Tangential forces.
+    Disc(Disc),
+}
+
+/// One or two (`count`) tangential forces, which together are no greater than `μ` times the force at `on`, if there is one, and `known_normal` that.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Disc {
+    /// Their places among the unknowns.
+    pub places: [usize; 2],
+    pub count: usize,
+    pub friction: f64,
+    pub on: Option<usize>,
+    pub known_normal: f64,
+}
+
+impl Disc {
+    fn places(&self) -> &[usize] {
+        &self.places[..self.count]
+    }
+
+    /// What the forces are no greater than together.
+    fn radius(&self, z: &[f64]) -> f64 {
+        (self.friction * (self.on.map_or(0.0, |on| z[on]) + self.known_normal)).max(0.0)
+    }
 }
 
 /// Unknown forces `z`, of which `γ = A z + b`. `A` has ones, or numbers about as large, on its diagonal, and `b` is at most 1.
@@ -128,19 +116,28 @@ pub(super) struct Problem {
     pub units: Vec<f64>,
 }
 
-/// Memory for the search for a solution.
+/// The best forces so far, and by how much they miss a condition.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Workspace {
-    /// The best forces so far, and by how much they miss a condition.
-    best: Vec<f64>,
+struct Best {
+    z: Vec<f64>,
     missed: f64,
-    newton: Newton,
-    interior: Interior,
-    /// The forces that solve a convex problem.
-    start: Vec<f64>,
 }
 
-impl Workspace {
+impl Best {
+    fn begin(&mut self, z: &[f64], missed: f64) {
+        self.z.clear();
+        self.z.extend_from_slice(z);
+        self.missed = missed;
+    }
+
+    /// Takes forces if they miss a condition by less.
+    fn note(&mut self, z: &[f64], missed: f64) {
+        if missed < self.missed {
+            self.missed = missed;
+            self.z.copy_from_slice(z);
+        }
+    }
+
     /// Whether the search is at its end, after a round before which the best forces missed a condition by `known`. Where contacts depend on each other, rounding may
     /// leave more than is good, which no further round changes.
     fn is_done_since(&self, known: f64) -> bool {
@@ -149,15 +146,14 @@ impl Workspace {
     }
 }
 
-/// Memory for Newton's method.
+/// Memory for the search for a solution.
 #[derive(Clone, Debug, Default)]
-struct Newton {
-    z: Vec<f64>,
-    next: Vec<f64>,
-    phi: Vec<f64>,
-    slopes: Vec<f64>,
-    by: Vec<f64>,
-    lu: Lu<1>,
+pub(super) struct Workspace {
+    best: Best,
+    newton: Newton,
+    interior: Interior,
+    /// The forces that solve a convex problem.
+    start: Vec<f64>,
 }
 
 /// Solves the problem: says by how much the forces miss a condition. The search begins with the forces `z`, and writes the solution there.
@@ -170,14 +166,12 @@ pub(super) fn solve(
     if !is_finite(&problem.b) || !is_finite(&problem.matrix) {
         return Err(Unsolved);
     }
-    work.best.clear();
-    work.best.extend_from_slice(z);
-    work.missed = problem.relative_residual(z);
+    work.best.begin(z, problem.relative_residual(z));
     search(problem, z, work);
-    if work.missed <= TOLERABLE {
-        z.copy_from_slice(&work.best);
-        problem.clear_open(z, &work.best);
-        Ok(work.missed)
+    if work.best.missed <= TOLERABLE {
+        z.copy_from_slice(&work.best.z);
+        problem.clear_open(z, &work.best.z);
+        Ok(work.best.missed)
     } else {
         Err(Unsolved)
     }
@@ -187,7 +181,7 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
     // Of several solutions the one that is near: sweeps may leave it.
     if z.iter().any(|z| *z != 0.0) {
         problem.polish(z, (Pace::Bold, FEW_STEPS), work);
-        if work.missed <= GOOD {
+        if work.best.missed <= GOOD {
             return;
         }
     }
@@ -197,7 +191,7 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
             if problem.solve_convex_problems(work) {
                 rounds = ROUNDS_AFTER_CONVEX_PROBLEMS;
             }
-            if work.missed <= TOLERABLE {
+            if work.best.missed <= TOLERABLE {
                 return;
             }
         }
@@ -205,13 +199,13 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
             return;
         }
         // Where some hundred sweeps have found nothing, thousands seldom do.
-        if round == ROUNDS_BEFORE_FRICTION_IS_FOLLOWED && work.missed > TOLERABLE {
+        if round == ROUNDS_BEFORE_FRICTION_IS_FOLLOWED && work.best.missed > TOLERABLE {
             problem.follow_friction(work);
-            if work.missed <= GOOD {
+            if work.best.missed <= GOOD {
                 return;
             }
         }
-        let known = work.missed;
+        let known = work.best.missed;
         for _ in 0..FIRST_SWEEPS << round {
             let moved = problem.sweep(z);
             if moved <= f64::EPSILON {
@@ -220,31 +214,12 @@ fn search(problem: &Problem, z: &mut [f64], work: &mut Workspace) {
         }
         problem.polish(z, (Pace::Bold, FEW_STEPS), work);
         let is_done = if round < ROUNDS_BEFORE_CONVEX_PROBLEMS {
-            work.missed <= GOOD
+            work.best.missed <= GOOD
         } else {
-            work.is_done_since(known)
+            work.best.is_done_since(known)
         };
         if is_done {
             return;
-        }
-    }
-}
-
-/// How Newton's method goes on where a step makes Φ no smaller.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Pace {
-    /// From where the step leads: Φ has kinks, behind which it may fall.
-    Bold,
-    /// From where it was, with contacts that yield more, so that the step is shorter.
-    Cautious,
-}
-
-impl Pace {
-    /// By how much contacts yield at most, and how many steps may fail in succession.
-    fn limits(self) -> (f64, usize) {
-        match self {
-            Pace::Bold => (1e-3, 3),
-            Pace::Cautious => (0.1, 8),
         }
     }
 }
@@ -273,15 +248,9 @@ impl Problem {
             match *part {
                 Part::Normal(i) if solution[i] <= self.rate(i, solution) => z[i] = 0.0,
                 Part::Normal(_) => {}
-                Part::Disc {
-                    places,
-                    count,
-                    friction,
-                    on,
-                    known_normal,
-                } => {
-                    if Self::radius(friction, on, known_normal, z) == 0.0 {
-                        places[..count].iter().for_each(|i| z[*i] = 0.0);
+                Part::Disc(disc) => {
+                    if disc.radius(z) == 0.0 {
+                        disc.places().iter().for_each(|i| z[*i] = 0.0);
                     }
                 }
             }
@@ -297,19 +266,15 @@ impl Problem {
         self.b[i] + dot(self.row(i), z)
     }
 
-    fn radius(friction: f64, on: Option<usize>, known_normal: f64, z: &[f64]) -> f64 {
-        (friction * (on.map_or(0.0, |on| z[on]) + known_normal)).max(0.0)
-    }
-
-    fn towards(&self, places: &[usize], radius: f64, z: &[f64]) -> Towards {
+    fn towards(&self, disc: &Disc, z: &[f64]) -> Towards {
         let mut y = [0.0; 2];
-        for (y, &i) in y.iter_mut().zip(places) {
+        for (y, &i) in y.iter_mut().zip(disc.places()) {
             *y = z[i] - self.rate(i, z);
         }
         Towards {
             y,
             length: norm(&y),
-            radius,
+            radius: disc.radius(z),
         }
     }
 
@@ -334,166 +299,15 @@ impl Problem {
         for part in &self.parts {
             match *part {
                 Part::Normal(i) => write(i, z[i] - (z[i] - self.rate(i, z)).max(0.0)),
-                Part::Disc {
-                    places,
-                    count,
-                    friction,
-                    on,
-                    known_normal,
-                } => {
-                    let places = &places[..count];
-                    let radius = Self::radius(friction, on, known_normal, z);
-                    let towards = self.towards(places, radius, z);
+                Part::Disc(disc) => {
+                    let towards = self.towards(&disc, z);
                     let factor = if towards.slips() {
-                        radius / towards.length
+                        towards.radius / towards.length
                     } else {
                         1.0
                     };
-                    for (&i, y) in places.iter().zip(towards.y) {
+                    for (&i, y) in disc.places().iter().zip(towards.y) {
                         write(i, z[i] - factor * y);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Newton's method from `z`; the best that has been found so far is that of `work`.
-    ///
-    /// Where contacts depend on each other the equations have no single solution: the diagonal of `A` is enlarged by a multiple of Φ, as if every contact yielded a
-    /// little from where it is, which leaves the forces as they are that change nothing. (D. H. Li, M. Fukushima, L. Qi, N. Yamashita, Comput. Optim. Appl. 28 (2004)
-    /// 131–147.)
-    fn polish(&self, z: &[f64], (pace, steps): (Pace, usize), work: &mut Workspace) {
-        let Workspace {
-            best,
-            missed: least,
-            newton,
-            ..
-        } = work;
-        let Newton {
-            z: now,
-            next,
-            phi,
-            slopes,
-            by,
-            lu,
-        } = newton;
-        let mut note = |z: &[f64], missed: f64| {
-            if missed < *least {
-                *least = missed;
-                best.copy_from_slice(z);
-            }
-        };
-        let n = self.n();
-        now.clear();
-        now.extend_from_slice(z);
-        next.clear();
-        next.resize(n, 0.0);
-        phi.clear();
-        phi.resize(n, 0.0);
-        let mut missed = self.residual(now, phi);
-        note(now, missed);
-        let (mut yielding, mut stalled) = (YIELDING * missed, 0);
-        let (most_yielding, most_stalled) = pace.limits();
-        for _ in 0..steps {
-            if missed <= ENOUGH || stalled > most_stalled {
-                return;
-            }
-            yielding = yielding.clamp(LEAST_YIELDING, most_yielding);
-            self.write_slopes(now, yielding, slopes);
-            by.clear();
-            by.extend_from_slice(phi);
-            if !factor_rows(slopes, n, lu) {
-                return;
-            }
-            lu.solve([by]);
-            if by.iter().any(|x| !x.is_finite()) {
-                return;
-            }
-            // The whole step is taken, or as much of it as makes Φ smaller.
-            let mut factor = 1.0;
-            let mut then = f64::INFINITY;
-            for _ in 0..HALVINGS {
-                for ((next, now), by) in next.iter_mut().zip(&*now).zip(&*by) {
-                    *next = now - factor * by;
-                }
-                then = self.residual(next, phi);
-                note(next, then);
-                if then < missed {
-                    break;
-                }
-                factor *= 0.5;
-            }
-            if !then.is_finite() {
-                return;
-            }
-            let is_less = then < missed;
-            stalled = if is_less { 0 } else { stalled + 1 };
-            if pace == Pace::Cautious && !is_less && yielding < most_yielding {
-                yielding = MORE_YIELDING * yielding.max(FIRST_YIELDING);
-                self.residual(now, phi);
-                continue;
-            }
-            let of_residual = YIELDING * then;
-            yielding = match pace {
-                Pace::Bold => of_residual,
-                Pace::Cautious if is_less => of_residual.min(LESS_YIELDING * yielding),
-                Pace::Cautious => yielding,
-            };
-            core::mem::swap(now, next);
-            missed = then;
-        }
-    }
-
-    /// Writes the derivatives of `Φ`, row after row, with contacts that yield.
-    fn write_slopes(&self, z: &[f64], yielding: f64, slopes: &mut Vec<f64>) {
-        let n = self.n();
-        slopes.clear();
-        slopes.resize(n * n, 0.0);
-        for part in &self.parts {
-            match *part {
-                Part::Normal(i) => {
-                    let row = &mut slopes[i * n..][..n];
-                    if z[i] - self.rate(i, z) > 0.0 {
-                        row.copy_from_slice(self.row(i));
-                        row[i] += yielding;
-                    } else {
-                        row[i] = 1.0;
-                    }
-                }
-                Part::Disc {
-                    places,
-                    count,
-                    friction,
-                    on,
-                    known_normal,
-                } => {
-                    let places = &places[..count];
-                    let radius = Self::radius(friction, on, known_normal, z);
-                    let towards = self.towards(places, radius, z);
-                    for (k, &i) in places.iter().enumerate() {
-                        let row = &mut slopes[i * n..][..n];
-                        if !towards.slips() {
-                            row.copy_from_slice(self.row(i));
-                            row[i] += yielding;
-                            continue;
-                        }
-                        row[i] = 1.0;
-                        if radius == 0.0 {
-                            continue;
-                        }
-                        let unit = |k: usize| towards.y[k] / towards.length;
-                        // z − r y/|y| with y = z − γ.
-                        for (l, &j) in places.iter().enumerate() {
-                            let same = if k == l { 1.0 } else { 0.0 };
-                            let turns = radius / towards.length * (same - unit(k) * unit(l));
-                            row[j] -= turns * (1.0 - yielding);
-                            for (slope, a) in row.iter_mut().zip(self.row(j)) {
-                                *slope += turns * a;
-                            }
-                        }
-                        if let Some(on) = on {
-                            row[on] -= friction * unit(k);
-                        }
                     }
                 }
             }
@@ -511,13 +325,13 @@ impl Problem {
         let most = MOST_MULTIPLICATIONS / (MULTIPLICATIONS * (self.n() as f64).powi(3));
         let most = most.clamp(FEWEST_CONVEX_PROBLEMS as f64, CONVEX_PROBLEMS as f64) as usize;
         for round in 0..most {
-            let known = work.missed;
+            let known = work.best.missed;
             work.interior.next(&mut z, round == 0);
             self.polish(&z, (Pace::Bold, STEPS), work);
-            if work.missed > GOOD {
+            if work.best.missed > GOOD {
                 self.polish(&z, (Pace::Cautious, STEPS), work);
             }
-            if work.is_done_since(known) {
+            if work.best.is_done_since(known) {
                 break;
             }
         }
@@ -533,344 +347,21 @@ impl Problem {
         for part in 1..=FRICTIONS {
             let mut some = self.clone();
             for part_of_contact in &mut some.parts {
-                if let Part::Disc { friction, .. } = part_of_contact {
-                    *friction *= part as f64 / FRICTIONS as f64;
+                if let Part::Disc(disc) = part_of_contact {
+                    disc.friction *= part as f64 / FRICTIONS as f64;
                 }
             }
-            own.best.clone_from(&z);
-            own.missed = some.relative_residual(&z);
+            own.best.begin(&z, some.relative_residual(&z));
             some.polish(&z, (Pace::Bold, STEPS), &mut own);
             for _ in 0..SWEEPS_OF_FRICTION {
-                if own.missed <= GOOD || some.sweep(&mut z) <= f64::EPSILON {
+                if own.best.missed <= GOOD || some.sweep(&mut z) <= f64::EPSILON {
                     break;
                 }
             }
             some.polish(&z, (Pace::Bold, STEPS), &mut own);
-            z.copy_from_slice(&own.best);
+            z.copy_from_slice(&own.best.z);
         }
-        let missed = self.relative_residual(&z);
-        if missed < work.missed {
-            work.missed = missed;
-            work.best.copy_from_slice(&z);
-        }
-    }
-
-    /// Solves every contact once, with the others as they are. By how much that changes the forces.
-    fn sweep(&self, z: &mut [f64]) -> f64 {
-        let mut moved = 0.0_f64;
-        let mut replace = |z: &mut [f64], places: &[usize], found: &[f64]| {
-            for (&i, value) in places.iter().zip(found) {
-                moved = moved.max((value - z[i]).abs());
-                z[i] = *value;
-            }
-        };
-        // The disc that belongs to the normal force before it, which is solved with that.
-        let mut solved = None;
-        for (index, part) in self.parts.iter().enumerate() {
-            match *part {
-                Part::Normal(i) => {
-                    let mut all = [i; 3];
-                    let (mut count, mut law) = (1, (0.0, 0.0));
-                    if let Some(&Part::Disc {
-                        places,
-                        count: tangents,
-                        friction,
-                        on: Some(on),
-                        known_normal,
-                    }) = self.parts.get(index + 1)
-                        && on == i
-                    {
-                        all[1..].copy_from_slice(&places);
-                        (count, law) = (1 + tangents, (friction, known_normal));
-                        solved = Some(index + 1);
-                    }
-                    let found = self.single_contact_forces(&all[..count], law, z);
-                    replace(z, &all[..count], &found);
-                }
-                Part::Disc { .. } if solved == Some(index) => {}
-                Part::Disc {
-                    places,
-                    count,
-                    friction,
-                    on,
-                    known_normal,
-                } => {
-                    let places = &places[..count];
-                    let radius = Self::radius(friction, on, known_normal, z);
-                    let own = self.local(places, z);
-                    let found = own.on_disc(radius);
-                    replace(z, places, &found[..count]);
-                }
-            }
-        }
-        moved
-    }
-
-    /// The problem of up to three directions alone.
-    fn local(&self, places: &[usize], z: &[f64]) -> Local {
-        let mut local = Local {
-            dimension: places.len(),
-            ..Local::default()
-        };
-        for (k, &i) in places.iter().enumerate() {
-            let row = self.row(i);
-            let mut own = 0.0;
-            for (l, &j) in places.iter().enumerate() {
-                local.w[k][l] = row[j];
-                own += row[j] * z[j];
-            }
-            local.q[k] = self.rate(i, z) - own;
-            local.z[k] = z[i];
-        }
-        local
-    }
-
-    /// The forces of one contact, normal and tangents, with all others as they are: as many as it has places.
-    fn single_contact_forces(
-        &self,
-        places: &[usize],
-        (friction, known_normal): (f64, f64),
-        z: &[f64],
-    ) -> [f64; 3] {
-        self.local(places, z).forces(friction, known_normal)
-    }
-}
-
-/// The directions of one contact: rates without their forces, what these change, and what the forces are now.
-#[derive(Clone, Copy, Debug, Default)]
-struct Local {
-    dimension: usize,
-    w: [[f64; 3]; 3],
-    q: [f64; 3],
-    z: [f64; 3],
-}
-
-impl Local {
-    /// The forces that solve the problem of a contact whose first direction is its normal.
-    fn forces(&self, friction: f64, known_normal: f64) -> [f64; 3] {
-        let Local { w, q, .. } = self;
-        let m = self.dimension;
-        if m == 1 {
-            return [(-q[0] / w[0][0]).max(0.0), 0.0, 0.0];
-        }
-        if known_normal <= 0.0 {
-            if q[0] >= 0.0 {
-                return [0.0; 3];
-            }
-        } else {
-            // The friction of what is beside the normal force acts even where the contact opens, and may open it.
-            let rest = self.without_normal().on_disc(friction * known_normal);
-            let found = [0.0, rest[0], rest[1]];
-            if q[0] + dot(&w[0], &found) >= 0.0 {
-                return found;
-            }
-        }
-        // Nothing slips.
-        let held = self.held();
-        let most = friction * (held[0] + known_normal);
-        if held[0] >= 0.0 && norm(&held[1..]) <= most {
-            return held;
-        }
-        self.slipping(friction, known_normal).unwrap_or_else(|| {
-            // None is found: a small step towards one.
-            let towards = |k: usize| self.z[k] - 0.5 * (q[k] + dot(&w[k], &self.z));
-            let normal = towards(0).max(0.0);
-            let radius = friction * (normal + known_normal);
-            let mut found = [normal, 0.0, 0.0];
-            (1..m).for_each(|k| found[k] = towards(k));
-            let length = norm(&found[1..]);
-            if length > radius {
-                let factor = radius / length;
-                found[1..].iter_mut().for_each(|y| *y *= factor);
-            }
-            found
-        })
-    }
-
-    /// The same tangents alone.
-    fn without_normal(&self) -> Local {
-        let moved = |x: [f64; 3]| [x[1], x[2], 0.0];
-        Local {
-            dimension: self.dimension - 1,
-            w: [moved(self.w[1]), moved(self.w[2]), [0.0; 3]],
-            q: moved(self.q),
-            z: moved(self.z),
-        }
-    }
-
-    /// The forces with which none of the directions moves.
-    fn held(&self) -> [f64; 3] {
-        let m = self.dimension;
-        // The matrix is a symmetric one with rows that are multiplied, so that no rows need to be exchanged.
-        let mut u = self.w;
-        let mut held = self.q.map(|q| -q);
-        let is_regular = (0..m).all(|k| {
-            let (pivot, of_pivot) = (u[k], held[k]);
-            for (row, right) in u[k + 1..m].iter_mut().zip(&mut held[k + 1..m]) {
-                let factor = row[k] / pivot[k];
-                for (x, above) in row.iter_mut().zip(pivot).skip(k + 1) {
-                    *x -= factor * above;
-                }
-                *right -= factor * of_pivot;
-            }
-            pivot[k] > DEPENDENT * self.w[k][k]
-        });
-        if is_regular {
-            held[m..].fill(0.0);
-            for i in (0..m).rev() {
-                let known = dot(&u[i][i + 1..m], &held[i + 1..m]);
-                held[i] = (held[i] - known) / u[i][i];
-            }
-            return held;
-        }
-        let mut left: Vec<f64> = (0..m * m).map(|k| self.w[k / m][k % m]).collect();
-        let (found, _) = lcp::solve(&mut left, &mut self.q.map(|q| -q)[..m]);
-        held = [0.0; 3];
-        held[..m].copy_from_slice(&found);
-        held
-    }
-
-    /// The forces of a contact that slips: with `Λₜ = −r e` and `γₙ = 0` its slip is along the direction e. There may be several, of which the one in the direction
-    /// of now is taken, or else the one with the least normal force.
-    ///
-    /// With `R = Λₙ + Λ₀` and `c = wₙₙ − μ wₙₜ·e > 0` the normal condition is `R c = wₙₙ Λ₀ − qₙ`, and c times the slip is an affine function of e.
-    fn slipping(&self, friction: f64, known_normal: f64) -> Option<[f64; 3]> {
-        let Local { w, q, .. } = self;
-        let lift = q[0] - w[0][0] * known_normal;
-        let side = [1, 2].map(|i| q[i] - w[i][0] * known_normal);
-        let slip = AffineSlip {
-            constant: [0, 1].map(|i| side[i] * w[0][0] - lift * w[i + 1][0]),
-            linear: [0, 1].map(|i| {
-                [0, 1].map(|j| friction * (lift * w[i + 1][j + 1] - side[i] * w[0][j + 1]))
-            }),
-        };
-        let share = |e: [f64; 2]| w[0][0] - friction * (w[0][1] * e[0] + w[0][2] * e[1]);
-        let forces = |e: [f64; 2]| {
-            let own = share(e);
-            let sum = -lift / own;
-            let normal = sum - known_normal;
-            (own > 0.0 && normal >= 0.0)
-                .then(|| [normal, -friction * sum * e[0], -friction * sum * e[1]])
-        };
-        slip.along_itself(self.dimension - 1, [self.z[1], self.z[2]], true, forces)
-    }
-
-    /// Tangential forces of which is known how large they may be together.
-    fn on_disc(&self, radius: f64) -> [f64; 3] {
-        let held = self.held();
-        if norm(&held) <= radius {
-            return held;
-        }
-        let Local { w, q, .. } = self;
-        let slip = AffineSlip {
-            constant: [q[0], q[1]],
-            linear: [0, 1].map(|i| [0, 1].map(|j| -radius * w[i][j])),
-        };
-        let forces = |e: [f64; 2]| Some([-radius * e[0], -radius * e[1], 0.0]);
-        slip.along_itself(self.dimension, [self.z[0], self.z[1]], false, forces)
-            .unwrap_or_else(|| {
-                let length = norm(&held);
-                held.map(|held| held * radius / length)
-            })
-    }
-}
-
-/// The slip of a contact, or a positive multiple of it, as a function of a direction: friction acts against that.
-struct AffineSlip {
-    constant: [f64; 2],
-    linear: [[f64; 2]; 2],
-}
-
-impl AffineSlip {
-    fn at(&self, e: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|i| self.constant[i] + self.linear[i][0] * e[0] + self.linear[i][1] * e[1])
-    }
-
-    /// How far the slip is to the left of the direction: 0 where it is along it, or against it.
-    fn aside(&self, e: [f64; 2]) -> f64 {
-        let slip = self.at(e);
-        e[0] * slip[1] - e[1] * slip[0]
-    }
-
-    /// The forces, which may exclude a direction, where the slip is along the direction. Of several solutions it is that near the friction force of now, or else
-    /// that with the least of the first force, if this `has_normal`.
-    fn along_itself(
-        &self,
-        dimension: usize,
-        now: [f64; 2],
-        has_normal: bool,
-        forces: impl Fn([f64; 2]) -> Option<[f64; 3]>,
-    ) -> Option<[f64; 3]> {
-        let is_along = |e: [f64; 2]| {
-            let slip = self.at(e);
-            e[0] * slip[0] + e[1] * slip[1] >= 0.0
-        };
-        if dimension == 1 {
-            let along = |sign: f64| {
-                let found = forces([sign, 0.0])?;
-                is_along([sign, 0.0]).then_some(found)
-            };
-            return along(1.0).or_else(|| along(-1.0));
-        }
-        if let Some(e) = self.near(now).filter(|e| is_along(*e))
-            && let Some(found) = forces(e)
-        {
-            return Some(found);
-        }
-        let mut best: Option<[f64; 3]> = None;
-        let mut from = [1.0, 0.0];
-        let mut before = self.aside(from);
-        for _ in 0..DIRECTIONS {
-            let to = [
-                from[0] * TURN[0] - from[1] * TURN[1],
-                from[0] * TURN[1] + from[1] * TURN[0],
-            ];
-            let after = self.aside(to);
-            let (sector, [low, high]) = ([from, to], [before, after]);
-            (from, before) = (to, after);
-            if low != 0.0 && (low > 0.0) == (high > 0.0) {
-                continue;
-            }
-            let e = zero_between(sector, [low, high], |e| self.aside(e));
-            let Some(found) = forces(e).filter(|_| is_along(e)) else {
-                continue;
-            };
-            let is_less = best.as_ref().is_none_or(|best| found[0] < best[0]);
-            if !has_normal || is_less {
-                best = Some(found);
-            }
-        }
-        best
-    }
-
-    /// The direction of a friction force, corrected by Newton's method so that the slip is along it or against it; none if that fails.
-    fn near(&self, force: [f64; 2]) -> Option<[f64; 2]> {
-        let length = norm(&force);
-        if length == 0.0 {
-            return None;
-        }
-        let mut e = force.map(|x| -x / length);
-        let [[a, b], [c, d]] = self.linear;
-        for _ in 0..MOST_CORRECTIONS {
-            let slip = self.at(e);
-            let value = e[0] * slip[1] - e[1] * slip[0];
-            // A turn to the left changes the direction by `(−e₁, e₀)`.
-            let turned = [-e[1], e[0]];
-            let change = [a * turned[0] + b * turned[1], c * turned[0] + d * turned[1]];
-            let slope =
-                turned[0] * slip[1] - turned[1] * slip[0] + e[0] * change[1] - e[1] * change[0];
-            let angle = -value / slope;
-            if angle.is_nan() || angle.abs() > GREATEST_CORRECTION {
-                return None;
-            }
-            e = [e[0] + angle * turned[0], e[1] + angle * turned[1]];
-            let length = norm(&e);
-            e = e.map(|x| x / length);
-            if angle.abs() <= 4.0 * f64::EPSILON {
-                return Some(e);
-            }
-        }
-        None
+        work.best.note(&z, self.relative_residual(&z));
     }
 }
 
@@ -908,53 +399,6 @@ fn factor_rows(rows: &[f64], n: usize, lu: &mut Lu<1>) -> bool {
     })
 }
 
-/// The direction between two, at which a function has these values of different signs, where it is 0. By the regula falsi, in which the value at an end that
-/// stays twice is halved (M. Dowell, P. Jarratt, BIT 11 (1971) 168–174), to rounding: what is found is the start of Newton's method, or a contact alone.
-fn zero_between(
-    ends: [[f64; 2]; 2],
-    [mut low, mut high]: [f64; 2],
-    function: impl Fn([f64; 2]) -> f64,
-) -> [f64; 2] {
-    let [from, to] = ends;
-    let direction = |part: f64| {
-        let e = [0, 1].map(|i| (1.0 - part) * from[i] + part * to[i]);
-        let length = (e[0] * e[0] + e[1] * e[1]).sqrt();
-        e.map(|e| e / length)
-    };
-    if low == 0.0 {
-        return from;
-    }
-    let (mut first, mut last) = (0.0_f64, 1.0_f64);
-    let mut found = 0.5;
-    let mut replaced_first = None;
-    for _ in 0..MOST_ESTIMATES {
-        let estimate = first + (last - first) * (low / (low - high));
-        let estimate = if estimate > first && estimate < last {
-            estimate
-        } else {
-            0.5 * (first + last)
-        };
-        let moved = (estimate - found).abs();
-        found = estimate;
-        let value = function(direction(found));
-        if value == 0.0 || moved <= f64::EPSILON || last - first <= f64::EPSILON {
-            break;
-        }
-        let is_first = (value > 0.0) == (low > 0.0);
-        if is_first {
-            (first, low) = (found, value);
-        } else {
-            (last, high) = (found, value);
-        }
-        if replaced_first == Some(is_first) {
-            let kept = if is_first { &mut high } else { &mut low };
-            *kept *= 0.5;
-        }
-        replaced_first = Some(is_first);
-    }
-    direction(found)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -981,13 +425,13 @@ mod tests {
         let parts = (0..count).flat_map(|k| {
             [
                 Part::Normal(3 * k),
-                Part::Disc {
+                Part::Disc(Disc {
                     places: [3 * k + 1, 3 * k + 2],
                     count: 2,
                     friction,
                     on: Some(3 * k),
                     known_normal: 0.0,
-                },
+                }),
             ]
         });
         Problem {
@@ -1015,13 +459,13 @@ mod tests {
                     let rate = problem.rate(*i, z);
                     worst = worst.max(-z[*i]).max(-rate).max((z[*i] * rate).abs());
                 }
-                Part::Disc {
+                Part::Disc(Disc {
                     places,
                     friction,
                     on,
                     known_normal,
                     ..
-                } => {
+                }) => {
                     let most = friction * (on.map_or(0.0, |on| z[on]) + known_normal);
                     let force: Vec<f64> = places.iter().map(|i| z[*i]).collect();
                     let slip: Vec<f64> = places.iter().map(|i| problem.rate(*i, z)).collect();
@@ -1065,8 +509,8 @@ mod tests {
             let mut problem = random(&mut seed, 1, 3 + case % 3, 0.4);
             let known = if case % 3 == 0 { 0.3 } else { 0.0 };
             for part in &mut problem.parts {
-                if let Part::Disc { known_normal, .. } = part {
-                    *known_normal = known;
+                if let Part::Disc(disc) = part {
+                    disc.known_normal = known;
                 }
             }
             let start = match case % 4 {
@@ -1089,13 +533,13 @@ mod tests {
         for (slip, presses) in [([0.3, 0.4], 2.0), ([0.3, 0.4], 0.5), ([0.0, -0.7], 0.2)] {
             let mut matrix = vec![0.0; 9];
             (0..3).for_each(|i| matrix[4 * i] = 1.0);
-            let disc = Part::Disc {
+            let disc = Part::Disc(Disc {
                 places: [1, 2],
                 count: 2,
                 friction: 0.5,
                 on: Some(0),
                 known_normal: 0.0,
-            };
+            });
             let problem = Problem {
                 matrix,
                 b: vec![-presses, slip[0], slip[1]],

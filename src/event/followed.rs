@@ -60,7 +60,7 @@ impl FollowedSign {
         }
     }
 
-    /// Goes on to the next look at the function. What it `found` is told in order.
+    /// Continues to the next value of the function, and calls `found` with the changes of its sign, in order.
     pub fn look(
         &mut self,
         theta: f64,

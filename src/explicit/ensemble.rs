@@ -325,7 +325,7 @@ trait Steps<S: Batched<W>, const W: usize>: Sized {
     fn resting(ensemble: &Ensemble<W>, first: &Track<f64, S::Vector>) -> Self;
     /// Puts a trajectory at its start into a lane.
     fn insert(&mut self, lane: usize, one: &Track<f64, S::Vector>);
-    /// One try of every trajectory.
+    /// One attempt at a step of every trajectory.
     fn attempt(&mut self, batch: &Batch<S, W>, inputs: &S::BatchInputs) -> [Outcome; W];
     /// The present states.
     fn now(&self) -> &Point<S::Vectors, Lanes<W>>;
@@ -503,7 +503,7 @@ impl<S: Batched<W>, T: Steps<S, W>, const W: usize> ActiveTrajectories<S, T, W> 
         self.steps.insert(lane, &track);
     }
 
-    /// One try of every trajectory.
+    /// One attempt at a step of every trajectory.
     fn attempt(&mut self) -> [Outcome; W] {
         if self.changed {
             self.batch = Batch::new(self.systems.each_ref());

@@ -1,7 +1,7 @@
 //! Steps by Taylor series of several trajectories at once, with the bits of a [`Stepper`](crate::Stepper).
 //!
 //! All lanes are expanded together at the ends of the steps that they try. A lane keeps the coefficients at the beginning of
-//! its step until a try is good. A lane that has just received a trajectory has no coefficients yet: its first try is a step
+//! its step until an attempt is good. A lane that has just received a trajectory has no coefficients yet: its first attempt is a step
 //! of length zero.
 
 use std::boxed::Box;
@@ -111,7 +111,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         self.lanes.iter().filter(|lane| lane.is_running).count()
     }
 
-    /// One try of every trajectory that is not at its end.
+    /// One attempt at a step of every trajectory that is not at its end.
     pub fn attempt<S: Batched<W, Vectors = V, SeriesLists = L>>(
         &mut self,
         batch: &Batch<S, W>,
@@ -336,7 +336,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         })
     }
 
-    /// Decides about a try of a step.
+    /// Decides about an attempt at a step.
     fn decide(&mut self, i: usize, h: f64, cause: Option<StepError>) -> Outcome {
         let lane = &mut self.lanes[i];
         let Some(cause) = cause else {

@@ -245,7 +245,7 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         self.track.hermite(theta)
     }
 
-    /// The continuous extension of the last step: the motion between its ends, in the numbers of the run.
+    /// The dense output of the last step: the motion between its ends, in the numbers of the run.
     ///
     /// It costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the others.
     ///
@@ -263,7 +263,7 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
             .interpolant(&SystemWithLaw(&self.system, &self.law))
     }
 
-    /// The state at a time within the last step, from [`t_before`](Self::t_before) to now, on the continuous extension of the method.
+    /// The state at a time within the last step, from [`t_before`](Self::t_before) to now, by the dense output of the method.
     /// The derivative of a dual number `t` is that of this time.
     ///
     /// It costs as much as [`interpolant`](Self::interpolant), which is better for many times.

@@ -4,7 +4,7 @@ use core::ops::{Deref, DerefMut};
 #[cfg(feature = "std")]
 use std::vec::Vec;
 
-/// For so many contacts numbers need no allocator. Without one, a machine has at most so many guided contacts.
+/// The number of contacts up to which their numbers need no allocator: the most guided contacts of a machine without one.
 pub(crate) const FEW_CONTACTS: usize = 6;
 
 /// One value for each contact.

@@ -26,7 +26,7 @@ const ORDERS: [f64; 2] = [12.0, 40.0];
 /// products of series grows with the square of the order.
 const FOR_EACH_FACTOR: f64 = 0.55;
 
-/// The length of the next try after a step that was rejected, relative to it.
+/// The length of the next attempt after a step that was rejected, relative to it.
 const SHORTER: f64 = 0.1;
 
 /// The least number of coefficients of a step, where further ones are too large.

@@ -39,6 +39,8 @@ pub(super) struct Known {
     pub series: Result<Arc<Series>, String>,
     /// Its machine code.
     pub code: CodeOfSeries,
+    /// The costs of its steps, once something has asked for them.
+    costs: OnceLock<Option<[f64; 2]>>,
 }
 
 impl Known {
@@ -46,6 +48,7 @@ impl Known {
         let code = series.as_ref().map(CodeOfSeries::new);
         Known {
             code: code.unwrap_or_default(),
+            costs: OnceLock::new(),
             series,
         }
     }
@@ -105,18 +108,15 @@ impl MotionSeries {
 
     /// The costs of its steps ([`System::series_cost`](crate::System::series_cost)), rounded as in emitted code.
     pub(super) fn cost(&self, program: &Program) -> Option<[f64; 2]> {
-        let series = self.known().series.as_ref().ok()?;
-        let accelerations = program.function(Role::Accelerations)?;
-        Some(rounded(series.cost(accelerations.cost())))
+        let Known { series, costs, .. } = self.known();
+        let series = series.as_ref().ok()?;
+        *costs.get_or_init(|| series.cost(program).map(rounded))
     }
 
     /// What powers add to them ([`System::powers_cost`](crate::System::powers_cost)).
     pub(super) fn cost_of_powers(&self, program: &Program) -> Option<[f64; 3]> {
         let series = self.known().series.as_ref().ok()?;
-        let accelerations = program.function(Role::Accelerations)?.cost();
-        Some(rounded(
-            series.cost_of_powers(accelerations, program.costs_of_powers()),
-        ))
+        series.cost_of_powers(program).map(rounded)
     }
 }
 

@@ -62,19 +62,13 @@ impl<V: Vector> HeldBounds<V> {
             known,
             of_step,
             wider,
+            widening,
             ..
         } = self;
         let [low, high] = &mut wider.v;
         low.as_mut_slice().fill(f64::NEG_INFINITY);
         high.as_mut_slice().fill(f64::INFINITY);
-        let wide = self.widening.unwrap_or(0.0);
-        let attempts = [
-            (wide, ANY_TIME),
-            (0.0, ANY_TIME),
-            (wide, widened(None, t, wide)),
-            (0.0, t),
-        ];
-        for (widening, wider_t) in attempts {
+        let mut hold_within = |widening: f64, wider_t: [f64; 2]| {
             for i in 0..of_step.q[0].as_slice().len() {
                 let at = [0, 1].map(|end: usize| of_step.q[end].as_slice()[i]);
                 let wide = widened(None, at, widening);
@@ -82,12 +76,32 @@ impl<V: Vector> HeldBounds<V> {
                     wider.as_mut_slice()[i] = wide;
                 }
             }
-            if hold(wider_t, wider) {
+            let holds = hold(wider_t, wider);
+            if holds {
                 of_step.v.clone_from(&wider.v);
                 take(known, wider_t, wider);
-                self.rates_matter = Some(false);
-                return true;
             }
+            holds
+        };
+        let wide = widening.unwrap_or(0.0);
+        let mut holds = hold_within(wide, ANY_TIME);
+        if !holds && hold_within(0.0, ANY_TIME) {
+            holds = true;
+            // Somewhat wider ones save looks at later steps.
+            let mut by = narrower(wide);
+            while let Some(more) = by.filter(|by| *by > 0.0) {
+                *widening = by;
+                if hold_within(more, ANY_TIME) {
+                    break;
+                }
+                by = narrower(more);
+                *widening = by;
+            }
+        }
+        holds = holds || hold_within(wide, widened(None, t, wide)) || hold_within(0.0, t);
+        if holds {
+            self.rates_matter = Some(false);
+            return true;
         }
         self.rates_matter = Some(true);
         false
@@ -427,6 +441,18 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             .enumerate()
             .find(|(_, assumption)| !assumption.holds())
             .map(|(index, assumption)| (index, assumption.text.into()))
+    }
+
+    /// Checks that all assumptions hold.
+    ///
+    /// # Errors
+    /// [`Error::AssumptionEnded`], of the first that does not.
+    pub(super) fn check_assumptions(&self, state: Triple<S::Vector>) -> Result<(), Error> {
+        let t = state.0;
+        match self.ended_assumption(state) {
+            Some((_, assumption)) => Err(Error::AssumptionEnded { assumption, t }),
+            None => Ok(()),
+        }
     }
 
     /// The margin by which an assumption holds; NaN counts as violated.

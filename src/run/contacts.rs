@@ -272,13 +272,42 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Writes down what happened.
-    pub(super) fn report_changes(&mut self, changes_at_instant: &ContactChanges, at_start: bool) {
+    pub(super) fn report_changes(&mut self, changes: &ContactChanges, at_start: bool) {
+        let mut reported = self.report_impacts(changes);
+        let hit: Vec<usize> = reported.iter().map(|(contact, ..)| *contact).collect();
+        for (contact, modes) in changes.before.iter().zip(&changes.after).enumerate() {
+            // What is closed before the run does not close; what is hit at its start does.
+            let closes_silently = at_start && !hit.contains(&contact);
+            reported.extend(self.change_of_mode(contact, modes, closes_silently));
+        }
+        for &guide in &changes.switched {
+            reported.push((guide, ContactEventKind::Switches, [0.0; 2], None));
+        }
+        for &(contact, is_loaded) in &changes.turned {
+            let stays_closed = [changes.before[contact], changes.after[contact]];
+            if stays_closed.iter().all(|mode| *mode != Mode::Open) {
+                let kind = if is_loaded {
+                    ContactEventKind::Crushes
+                } else {
+                    ContactEventKind::Turns
+                };
+                reported.push((contact, kind, [0.0; 2], None));
+            }
+        }
+        let shared = changes.lost_at_end / changes.ended.len().max(1) as f64;
+        for (contact, _) in &changes.ended {
+            self.record.unilateral.losses[*contact] += shared;
+        }
+        self.enter_contact_events(reported, &changes.ended);
+    }
+
+    /// Writes down the losses of impacts, and returns those that are events.
+    fn report_impacts(&mut self, changes: &ContactChanges) -> Vec<ReportedEvent> {
         let t = self.stepper.t();
-        let mut reported: Vec<ReportedEvent> = Vec::new();
+        let mut reported = Vec::new();
         let size = |impulse: [f64; 2]| impulse[0].abs().max(impulse[1].abs());
-        let greatest =
-            (changes_at_instant.impacts.iter()).fold(0.0_f64, |most, i| most.max(size(i.impulse)));
-        for (place, impact) in changes_at_instant.impacts.iter().enumerate() {
+        let greatest = (changes.impacts.iter()).fold(0.0_f64, |most, i| most.max(size(i.impulse)));
+        for (place, impact) in changes.impacts.iter().enumerate() {
             let &Impact {
                 contact,
                 gap_rate,
@@ -292,7 +321,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let has_carrier = self.has_carrier(contact);
             let is_hit = size(impulse) > 1e-12 * greatest && !has_carrier;
             if is_hit {
-                let across = self.across_of(&changes_at_instant.impacts[place..]);
+                let across = self.across_of(&changes.impacts[place..]);
                 let impact = ContactImpact {
                     gap_rate,
                     slip,
@@ -303,66 +332,45 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 reported.push((contact, ContactEventKind::Impact, [0.0; 2], Some(impact)));
             }
         }
-        for impact in &changes_at_instant.slight_impacts {
+        for impact in &changes.slight_impacts {
             self.record.unilateral.losses[impact.contact] += impact.loss;
         }
-        self.record_energy_gains(&changes_at_instant.impacts, t);
-        let hit: Vec<usize> = reported.iter().map(|(contact, ..)| *contact).collect();
-        for (contact, (before, after)) in changes_at_instant
-            .before
-            .iter()
-            .zip(&changes_at_instant.after)
-            .enumerate()
-        {
-            use ContactEventKind::{Closes, Lifts, Opens, Reverses, Slips, Sticks};
-            let (kind, direction) = match (*before, *after) {
-                (Mode::Open, Mode::Open) => continue,
-                // What leans on a contact closes and opens with it.
-                (Mode::Open, _) | (_, Mode::Open) if self.has_carrier(contact) => continue,
-                // What is done along both tangents is told of the contact.
-                _ if self.is_across(contact) => continue,
-                // A guide is never open.
-                (Mode::Open, _) if self.is_guide(contact) => continue,
-                // What is closed before the run does not close; what is hit at its start does.
-                (Mode::Open, _) if at_start && !hit.contains(&contact) => continue,
-                (Mode::Open, _) => (Closes, 0.0),
-                (_, Mode::Open) if self.is_compliant(contact) => (Opens, 0.0),
-                (_, Mode::Open) => (Lifts, 0.0),
-                (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, to),
-                (Mode::Slides(from), Mode::Sticks) if from != 0.0 => (Sticks, 0.0),
-                (Mode::Sticks, Mode::Slides(to)) if to != 0.0 => (Slips, to),
-                (Mode::SlidesAlong(_), Mode::Sticks) => (Sticks, 0.0),
-                (Mode::Sticks, Mode::SlidesAlong(_)) => (Slips, 0.0),
-                _ => continue,
-            };
-            let directions = match kind {
-                Slips => after.direction(),
-                _ => [direction, 0.0],
-            };
-            reported.push((contact, kind, directions, None));
-        }
-        for &guide in &changes_at_instant.switched {
-            reported.push((guide, ContactEventKind::Switches, [0.0; 2], None));
-        }
-        for &(contact, is_loaded) in &changes_at_instant.turned {
-            let (before, after) = (
-                changes_at_instant.before[contact],
-                changes_at_instant.after[contact],
-            );
-            if before != Mode::Open && after != Mode::Open {
-                let kind = if is_loaded {
-                    ContactEventKind::Crushes
-                } else {
-                    ContactEventKind::Turns
-                };
-                reported.push((contact, kind, [0.0; 2], None));
-            }
-        }
-        let shared = changes_at_instant.lost_at_end / changes_at_instant.ended.len().max(1) as f64;
-        for (contact, _) in &changes_at_instant.ended {
-            self.record.unilateral.losses[*contact] += shared;
-        }
-        self.enter_contact_events(reported, &changes_at_instant.ended);
+        self.record_energy_gains(&changes.impacts, 0.0, t);
+        reported
+    }
+
+    /// The event that a contact's change of mode is, if it is one. `closes_silently` if closing is none.
+    fn change_of_mode(
+        &self,
+        contact: usize,
+        (before, after): (&Mode, &Mode),
+        closes_silently: bool,
+    ) -> Option<ReportedEvent> {
+        use ContactEventKind::{Closes, Lifts, Opens, Reverses, Slips, Sticks};
+        let (kind, direction) = match (*before, *after) {
+            (Mode::Open, Mode::Open) => return None,
+            // What depends on a contact closes and opens with it.
+            (Mode::Open, _) | (_, Mode::Open) if self.has_carrier(contact) => return None,
+            // What is done along both tangents is told of the contact.
+            _ if self.is_across(contact) => return None,
+            // A guide is never open.
+            (Mode::Open, _) if self.is_guide(contact) => return None,
+            (Mode::Open, _) if closes_silently => return None,
+            (Mode::Open, _) => (Closes, 0.0),
+            (_, Mode::Open) if self.is_compliant(contact) => (Opens, 0.0),
+            (_, Mode::Open) => (Lifts, 0.0),
+            (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, to),
+            (Mode::Slides(from), Mode::Sticks) if from != 0.0 => (Sticks, 0.0),
+            (Mode::Sticks, Mode::Slides(to)) if to != 0.0 => (Slips, to),
+            (Mode::SlidesAlong(_), Mode::Sticks) => (Sticks, 0.0),
+            (Mode::Sticks, Mode::SlidesAlong(_)) => (Slips, 0.0),
+            _ => return None,
+        };
+        let directions = match kind {
+            Slips => after.direction(),
+            _ => [direction, 0.0],
+        };
+        Some((contact, kind, directions, None))
     }
 
     /// Writes down events of contacts now. `ended` are contacts whose bounces came to their end, with how long these would
@@ -476,7 +484,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Notes impacts that have created energy beyond rounding: that of the impulses, and that of the energies at hand, in whose balance no less
     /// can be seen.
-    pub(super) fn record_energy_gains(&mut self, impacts: &[Impact], t: f64) {
+    pub(super) fn record_energy_gains(&mut self, impacts: &[Impact], untold: f64, t: f64) {
         let loss: f64 = impacts.iter().map(|impact| impact.loss).sum();
         let exchanged: f64 = (impacts.iter())
             .map(|i| (i.impulse[0] * i.gap_rate[0]).abs() + (i.impulse[1] * i.slip[0]).abs())
@@ -491,7 +499,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let potential =
             known(self.model.system.potential_energy(t_now, q, &inputs) + self.stored_now());
         let of_energies = ROUNDINGS_OF_ENERGIES * f64::EPSILON * (kinetic + potential);
-        if -loss <= 1e-12 * (exchanged + kinetic) + of_energies {
+        if -loss <= 1e-12 * (exchanged + kinetic) + of_energies + untold {
             return;
         }
         let kept = &mut self.record.unilateral;

@@ -117,11 +117,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             &record.explained,
             (record.kinetic_energy, has_fixed_steps),
         );
-        let mut warnings = warnings(system, settings, &stepper);
-        if <M::System as System>::MAY_COLLIDE {
-            warnings.extend(record.unilateral.warnings(system));
-            warnings.extend(handover::warning(&record.handovers));
-        }
+        let mut warnings = warnings_so_far::<M, _, _>(system, settings, &stepper, &record);
         if let Some(balance) = &balance
             && error.is_none()
             && balance.residual().abs() > balance.explained
@@ -212,6 +208,21 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             t = next;
         }
     }
+}
+
+/// The warnings of a run up to now, except about the balance of its energies.
+pub(super) fn warnings_so_far<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
+    system: &M::System,
+    settings: &Settings,
+    stepper: &Stepper<'_, M::System, L, A>,
+    record: &Record<M>,
+) -> Vec<Warning> {
+    let mut warnings = warnings(system, settings, stepper);
+    if <M::System as System>::MAY_COLLIDE {
+        warnings.extend(record.unilateral.warnings(system));
+        warnings.extend(handover::warning(&record.handovers));
+    }
+    warnings
 }
 
 fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(

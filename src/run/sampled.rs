@@ -158,7 +158,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Lets the inputs jump to other values.
-    fn jump_inputs(
+    pub(super) fn jump_inputs(
         &mut self,
         held: Option<Inputs<M>>,
         piece: Option<Piece>,

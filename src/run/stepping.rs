@@ -6,7 +6,7 @@ use std::vec::Vec;
 use super::Run;
 use super::contacts::ReportedEvent;
 use crate::balance::Quadratures;
-use crate::contact::{Impact, Mode, UnilateralState};
+use crate::contact::{Mode, UnilateralState};
 use crate::inputs::InputLaw;
 use crate::phases::{Change, Phase, StepRecord};
 use crate::{ContactEventKind, ContactImpact, Error, Machine};
@@ -50,7 +50,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             stepped,
             before,
             after,
-            hits,
+            ..
         } = &mut of_step;
         let impacts = &stepped.impacts;
         let t = self.stepper.t();
@@ -103,16 +103,34 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             };
             reported.push((k, kind.0, directions, None));
         }
-        let is_new = |impact: &&Impact| before[impact.contact] == Mode::Open;
-        hits.clear();
-        hits.extend(impacts.iter().filter(is_new));
-        self.record_energy_gains(hits, t);
         self.activity.count_quiet_step(reported.is_empty());
         self.enter_contact_events(reported, &[]);
         if !impacts.is_empty() || before != after {
             self.keep_phase_of_step();
         }
+        self.record_gains_of_step(&mut of_step, t);
         self.record.unilateral.of_step = of_step;
+    }
+
+    /// Notes impacts of the step that have created energy: those that inertia couples take it together.
+    fn record_gains_of_step(&mut self, of_step: &mut StepRecord, t: f64) {
+        let StepRecord {
+            stepped,
+            before,
+            hits,
+            ..
+        } = of_step;
+        let impacts = &stepped.impacts;
+        for group in 0..impacts.len() {
+            let is_in_group = |place: &usize| stepped.groups[*place] == group;
+            let places = || (0..impacts.len()).filter(is_in_group);
+            if places().any(|place| before[impacts[place].contact] == Mode::Open) {
+                hits.clear();
+                hits.extend(places().map(|place| impacts[place]));
+                let untold = places().map(|place| stepped.untold[place]).sum();
+                self.record_energy_gains(hits, untold, t);
+            }
+        }
     }
 }
 

@@ -16,7 +16,7 @@ use std::boxed::Box;
 const SHORTER: f64 = 0.25;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Continues with `method`, a Runge–Kutta method or one by series. The next step keeps its length for the first try.
+    /// Continues with `method`, a Runge–Kutta method or one by series. The next step keeps its length for the first attempt.
     pub(crate) fn change_method(&mut self, method: &'static Method) -> Result<(), StepError> {
         let spectrum = method.tableau.spectrum;
         let system = self.model.system.get();

@@ -1,21 +1,23 @@
 //! Lets unilateral contacts close, open, stick and slip at the end of a step.
 
+mod fading;
+mod settling;
+
+pub(super) use settling::project_onto_closed_contacts;
+
 use std::boxed::Box;
-use std::vec;
 use std::vec::Vec;
 
 use super::in_series::GROWTH_IN_FLIGHT;
 use super::{Model, Stepper, move_by_rounding};
 use crate::at::At;
 use crate::balance::{ContactShare, Quadratures};
-use crate::constraints::Constraints;
 use crate::contact::{
     Bounce, ContactMemory, Impact, Mode, ParadoxResolution, StateBox, StepEnds, Told,
     UnilateralState,
 };
 use crate::inputs::InputLaw;
 use crate::stages::Point;
-use crate::tolerance::Tolerance;
 use crate::unilateral::ContactTrouble;
 use crate::{StepError, System, Vector};
 
@@ -27,13 +29,6 @@ const STEP_TO_FLIGHT_RATIO: f64 = 8.0;
 
 /// The same for a step by series, which is not shortened by its error where few forces act.
 const SERIES_TO_FLIGHT_RATIO: f64 = 2.0;
-
-/// A slip that has stopped is removed without a further question if that changes the kinetic energy by at most this share: a slip is located to the
-/// tolerance of the step, and its square is less.
-const SHARE_OF_REST: f64 = 1e-9;
-
-/// A slip in two directions has stopped if it is braked and less than so many errors that a step may have.
-const FADING: f64 = 10.0;
 
 /// The reason for which the next states of contacts are determined.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +73,39 @@ pub(crate) struct ContactChanges {
     flight: Option<f64>,
 }
 
+/// What an instant of changes is compared with: the state before it.
+struct StateBefore {
+    /// The kinetic energy, in J.
+    energy: f64,
+    /// The side to which each guide presses.
+    sides: Vec<f64>,
+    /// The energy that each contact stores, in J, and whether its layer is loaded.
+    stored: Vec<f64>,
+    loaded: Vec<bool>,
+}
+
+impl StateBefore {
+    fn of<S: System, L: InputLaw<S>>(
+        model: &Model<'_, S, L>,
+        touching: &UnilateralState,
+        now: &Point<S::Vector>,
+    ) -> Self {
+        Self {
+            energy: model.energy(now),
+            sides: touching.sides().to_vec(),
+            stored: stored_by_each(model.system.get(), touching, now),
+            loaded: touching.loaded().collect(),
+        }
+    }
+}
+
+/// Contacts after the impacts of an instant: which touch, which are closed, and the slips of which have stopped.
+struct ContactsMet {
+    touches: Vec<bool>,
+    closed: Vec<bool>,
+    stopped: Vec<bool>,
+}
+
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// The state of the unilateral contacts.
     pub(crate) fn touching(&self) -> &Option<UnilateralState> {
@@ -118,30 +146,6 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
     }
 
-    /// A contact whose slip in two directions is next to nothing at the end of the last step, is braked there, and would stay at rest, if there is one. What
-    /// is left of such a slip are errors, which the following steps would turn around rest in ever shorter steps. `memory` knows the contacts there, and
-    /// `faster` which of them have slipped faster.
-    pub(crate) fn faded_slip(
-        &mut self,
-        memory: &ContactMemory<S::Vector, S::Matrix>,
-        faster: &mut Vec<bool>,
-    ) -> Result<Option<usize>, StepError> {
-        let Self { model, now, .. } = self;
-        let error = fading_rate(&self.tolerance, &now.v);
-        let Some(touching) = &model.touching else {
-            return Ok(None);
-        };
-        if !touching.may_fade(memory, &error, faster) {
-            return Ok(None);
-        }
-        let touching = touching.clone();
-        model.set_inputs(now.t, &now.q, &now.v);
-        let errors: Vec<f64> = (0..now.v.as_slice().len()).map(error).collect();
-        let fading = model.fading_slips(&touching, now, &errors)?;
-        let mut pairs = fading.iter().zip(faster);
-        Ok(pairs.position(|(fades, faster)| *fades && *faster))
-    }
-
     /// Lets contacts that touch meet, and continues to `end` with the contacts that are closed then. What yields and is pressed
     /// `at_start` has been pressed before.
     pub(crate) fn resolve_contacts(
@@ -151,105 +155,66 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         end: f64,
         step: f64,
     ) -> Result<ContactChanges, StepError> {
-        let Self { model, now, .. } = self;
-        let mut changes_at_instant = ContactChanges::default();
-        let energy = |model: &Model<'_, S, L>, now: &Point<S::Vector>| {
-            model.system.kinetic_energy(now.t, &now.q, &now.v)
-        };
-        let (t, energy_before) = (now.t, energy(model, now));
+        let Self {
+            model,
+            now,
+            tolerance,
+            ..
+        } = self;
         let Some(mut touching) = model.touching.clone() else {
-            return Ok(changes_at_instant);
+            return Ok(ContactChanges::default());
         };
-        changes_at_instant.before = touching.modes().to_vec();
-        let sides_before = touching.sides().to_vec();
-        let stored_before = stored_by_each(model.system.get(), &touching, now);
-        let loaded_before: Vec<bool> = touching.loaded().collect();
-        model.set_inputs(t, &now.q, &now.v);
-        let fading = match cause {
-            Cause::Stops(_) | Cause::Unspecified => {
-                let error = fading_rate(&self.tolerance, &now.v);
-                let errors: Vec<f64> = (0..now.v.as_slice().len()).map(error).collect();
-                model.fading_slips(&touching, now, &errors)?
-            }
-            _ => vec![false; touching.modes().len()],
+        let before = StateBefore::of(model, &touching, now);
+        let mut changes = ContactChanges {
+            before: touching.modes().to_vec(),
+            ..ContactChanges::default()
         };
+        model.set_inputs(now.t, &now.q, &now.v);
+        let fading = model.fading_at_change(cause, &touching, now, tolerance)?;
         let cause = model.known_cause(cause, &touching, now, &fading)?;
-        let pairs: Vec<usize> = (0..touching.modes().len())
-            .map(|k| touching.first(k))
-            .collect();
-
-        let touches = meet(
-            model.system.get(),
-            &mut touching,
-            now,
-            &mut changes_at_instant,
-        )?;
-        model.set_inputs(t, &now.q, &now.v);
-        let as_held = changes_at_instant.impacts.is_empty();
-        let stops = |k: usize| cause == Cause::Stops(pairs[k]) || as_held && fading[pairs[k]];
-        let mut closed =
-            touching.persisting(model.system.get(), (t, &now.q, &now.v), &touches, as_held);
-        match cause {
-            Cause::Lifts(k) if touching.is_compliant(k) => closed[k] = false,
-            Cause::Leaves(k) => closed[k] = false,
-            Cause::Presses(k) => closed[k] = true,
-            Cause::Turns(k) => {
-                touching.switch_layer(model.system.get(), (t, &now.q, &now.v), k);
-            }
-            _ => {}
-        }
-        touching.copy_from_carriers(&mut closed);
-        let stopped: Vec<bool> = (0..closed.len()).map(stops).collect();
-        if touching.may_have_paradox() {
-            model.leave_paradox(
-                &touching,
-                now,
-                (cause, &touches, &stopped),
-                (&mut closed, &mut changes_at_instant),
-            )?;
-        }
-        let energy_after = energy(model, now);
-        model.end_bounces(
-            &mut touching,
-            now,
-            (&touches, &mut closed),
-            &mut changes_at_instant,
-        )?;
+        let ContactsMet {
+            touches,
+            mut closed,
+            stopped,
+        } = model.close_what_meets(&mut touching, now, (cause, &fading), &mut changes)?;
+        let energy_after = model.energy(now);
+        model.end_bounces(&mut touching, now, (&touches, &mut closed), &mut changes)?;
         touching.copy_from_carriers(&mut closed);
         let (resting, jammed) = model.settle_closed(
             &mut touching,
             now,
             (cause, &mut closed, stopped),
-            &mut changes_at_instant,
+            &mut changes,
         )?;
-        touching.record_slips(model.system.get(), t, &now.q, &now.v);
-        touching.record_beginning_slips(model.system.get(), (t, &now.q, &now.v), &resting);
-        if !matches!(cause, Cause::Turns(_)) || !changes_at_instant.impacts.is_empty() {
-            touching.load_layers(model.system.get(), t, &now.q, &now.v);
+        let system = model.system.get();
+        touching.record_slips(system, now.t, &now.q, &now.v);
+        touching.record_beginning_slips(system, (now.t, &now.q, &now.v), &resting);
+        if !matches!(cause, Cause::Turns(_)) || !changes.impacts.is_empty() {
+            touching.load_layers(system, now.t, &now.q, &now.v);
         }
-        let turned = touching.loaded().zip(loaded_before).enumerate();
-        changes_at_instant.turned = turned
+        let turned = touching.loaded().zip(before.loaded).enumerate();
+        changes.turned = turned
             .filter(|(_, (is, was))| is != was)
             .map(|(k, (is, _))| (k, is))
             .collect();
-        let stored_after = stored_by_each(model.system.get(), &touching, now);
+        let stored_after = stored_by_each(system, &touching, now);
         let stored_before = if at_start {
             stored_after.clone()
         } else {
-            stored_before
+            before.stored
         };
-        model.constraints = project_onto_closed_contacts(model.system.get(), &touching, now)?;
-        changes_at_instant.after = touching.modes().to_vec();
-        changes_at_instant.switched = touching.switched(&changes_at_instant.before, &sides_before);
+        model.constraints = project_onto_closed_contacts(system, &touching, now)?;
+        changes.after = touching.modes().to_vec();
+        changes.switched = touching.switched(&changes.before, &before.sides);
         model.touching = Some(touching);
 
-        if !changes_at_instant.ended.is_empty() {
-            changes_at_instant.lost_at_end = energy_after + jammed - energy(model, now);
+        if !changes.ended.is_empty() {
+            changes.lost_at_end = energy_after + jammed - model.energy(now);
         }
-        let gained = energy_after + jammed - energy_before;
-        self.book_changes(gained, &changes_at_instant, [&stored_before, &stored_after]);
-        self.begin_again(end, step, changes_at_instant.flight)?;
-        Ok(changes_at_instant)
+        let gained = energy_after + jammed - before.energy;
+        self.book_changes(gained, &changes, [&stored_before, &stored_after]);
+        self.begin_again(end, step, changes.flight)?;
+        Ok(changes)
     }
 
     /// Books the energy that an instant of changes took: what impacts added to the kinetic energy, and what each contact stored before and after.
@@ -359,14 +324,62 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         Ok(Cause::Unspecified)
     }
 
+    /// The kinetic energy, in J.
+    fn energy(&self, now: &Point<S::Vector>) -> f64 {
+        self.system.kinetic_energy(now.t, &now.q, &now.v)
+    }
+
+    /// Lets contacts meet, and finds which are closed then.
+    fn close_what_meets(
+        &mut self,
+        touching: &mut UnilateralState,
+        now: &mut Point<S::Vector>,
+        (cause, fading): (Cause, &[bool]),
+        changes: &mut ContactChanges,
+    ) -> Result<ContactsMet, StepError> {
+        let pairs: Vec<usize> = (0..touching.modes().len())
+            .map(|k| touching.first(k))
+            .collect();
+        let touches = meet(self.system.get(), touching, now, changes)?;
+        self.set_inputs(now.t, &now.q, &now.v);
+        let place = (now.t, &now.q, &now.v);
+        let as_held = changes.impacts.is_empty();
+        let mut closed = touching.persisting(self.system.get(), place, &touches, as_held);
+        match cause {
+            Cause::Lifts(k) if touching.is_compliant(k) => closed[k] = false,
+            Cause::Leaves(k) => closed[k] = false,
+            Cause::Presses(k) => closed[k] = true,
+            Cause::Turns(k) => {
+                touching.switch_layer(self.system.get(), place, k);
+            }
+            _ => {}
+        }
+        touching.copy_from_carriers(&mut closed);
+        let stops = |k: usize| cause == Cause::Stops(pairs[k]) || as_held && fading[pairs[k]];
+        let mut met = ContactsMet {
+            touches,
+            stopped: (0..closed.len()).map(stops).collect(),
+            closed,
+        };
+        if touching.may_have_paradox() {
+            self.leave_paradox(touching, now, (cause, &mut met), changes)?;
+        }
+        Ok(met)
+    }
+
     /// Takes the way out of Painlevé's paradox of a closed contact, if there is one: the contact opens, or has an impact, which changes what is closed.
     fn leave_paradox(
         &mut self,
         touching: &UnilateralState,
         now: &mut Point<S::Vector>,
-        (cause, touches, stopped): (Cause, &[bool], &[bool]),
-        (closed, changes): (&mut Vec<bool>, &mut ContactChanges),
+        (cause, met): (Cause, &mut ContactsMet),
+        changes: &mut ContactChanges,
     ) -> Result<(), StepError> {
+        let ContactsMet {
+            touches,
+            closed,
+            stopped,
+        } = met;
         let t = now.t;
         let mut resting = touching.resting(self.system.get(), (t, &now.q, &now.v), closed);
         for (k, resting) in resting.iter_mut().enumerate() {
@@ -392,147 +405,6 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
             None => {}
         }
-        Ok(())
-    }
-
-    /// Brings a state onto the contacts that are closed and sets what these do next. If their friction jams them, the slips that are in the way stop first. The
-    /// answer is which contacts rest, and by how much that has changed the kinetic energy, in J.
-    fn settle_closed(
-        &self,
-        touching: &mut UnilateralState,
-        now: &mut Point<S::Vector>,
-        (cause, closed, mut stopped): (Cause, &mut [bool], Vec<bool>),
-        changes: &mut ContactChanges,
-    ) -> Result<(Vec<bool>, f64), StepError> {
-        let system = self.system.get();
-        let energy = |now: &Point<S::Vector>| system.kinetic_energy(now.t, &now.q, &now.v);
-        let (mut jammed, mut is_hit) = (0.0, !changes.impacts.is_empty());
-        // Each time at least one contact stops, turns or opens.
-        for _ in 0..=2 * closed.len() {
-            self.hold_closed(touching, now, (closed, &stopped, is_hit))?;
-            let resting = resting_or_stopped(system, touching, now, (closed, &stopped));
-            let settled = self.settle(touching, now, (cause, closed, &resting), changes);
-            let Err(error) = settled else {
-                return Ok((resting, jammed));
-            };
-            if !is_of_several(&error) {
-                return Err(error);
-            }
-            let at = At {
-                t: now.t,
-                q: &now.q,
-                v: &now.v,
-                u: &self.inputs,
-            };
-            let jam = touching.resolve_jam(system, at, (closed, &resting))?;
-            let Some(jam) = jam else {
-                return Err(error);
-            };
-            let before = energy(now);
-            for (v, by) in now.v.as_mut_slice().iter_mut().zip(&jam.change) {
-                *v += by;
-            }
-            now.v_low.as_mut_slice().fill(0.0);
-            let change = energy(now) - before;
-            jammed += change;
-            if change.abs() > SHARE_OF_REST * before {
-                changes.told.jammed.extend(jam.stop.iter().chain(&jam.open));
-                changes.impacts.extend(jam.impacts);
-            } else {
-                changes.slight_impacts.extend(jam.impacts);
-            }
-            for k in jam
-                .stop
-                .iter()
-                .flat_map(|k| [Some(*k), touching.second(*k)])
-            {
-                k.into_iter().for_each(|k| stopped[k] = true);
-            }
-            jam.open.iter().for_each(|k| closed[*k] = false);
-            touching.copy_from_carriers(closed);
-            is_hit = true;
-        }
-        Err(StepError::Contact {
-            contact: closed.iter().position(|closed| *closed).unwrap_or(0),
-            trouble: ContactTrouble::Unsettled,
-            t: now.t,
-        })
-    }
-
-    /// Sets what closed contacts do next, with what the cause of the change says of one of them.
-    fn settle(
-        &self,
-        touching: &mut UnilateralState,
-        now: &Point<S::Vector>,
-        (cause, closed, resting): (Cause, &[bool], &[bool]),
-        changes: &mut ContactChanges,
-    ) -> Result<(), StepError> {
-        let known = match cause {
-            Cause::Lifts(k) | Cause::Leaves(k) => Some((k, Mode::Open)),
-            Cause::Breaks(k, direction) if touching.second(k).is_some() => {
-                Some((k, Mode::SlidesAlong(direction)))
-            }
-            Cause::Breaks(k, [along, _]) => Some((k, Mode::Slides(along.signum()))),
-            Cause::Unspecified
-            | Cause::Stops(_)
-            | Cause::Presses(_)
-            | Cause::Switches(_)
-            | Cause::Turns(_) => None,
-        };
-        let system = self.system.get();
-        let at = At {
-            t: now.t,
-            q: &now.q,
-            v: &now.v,
-            u: &self.inputs,
-        };
-        let mut settled = touching.settled(system, at, closed, resting, known.as_slice());
-        if known.is_some() && settled.as_ref().is_err_and(is_of_several) {
-            // Several change at this instant: what is known of one does not go with what the others do.
-            settled = touching.settled(system, at, closed, resting, &[]);
-        }
-        let mut settled = settled?;
-        let is_same = |modes: &[Mode]| {
-            let mut pairs = modes.iter().zip(touching.modes());
-            pairs.all(|(after, before)| after.is_like(*before))
-        };
-        if cause == Cause::Unspecified && is_same(&settled.modes) {
-            // Contacts that share a load may exceed what they hold together by so little that the forces above do not show it.
-            let let_go = touching.let_go(system, at)?;
-            if !let_go.is_empty() {
-                settled = touching.settled(system, at, closed, resting, &let_go)?;
-            }
-        }
-        touching.take_sides(
-            &settled,
-            match cause {
-                // Impacts change reactions by more than what changes their signs.
-                Cause::Switches(k) if changes.impacts.is_empty() => Some(k),
-                _ => None,
-            },
-        );
-        let mut modes = settled.modes;
-        (changes.told.shared_otherwise).extend(settled.shared_otherwise);
-        if matches!(cause, Cause::Lifts(_)) && changes.impacts.is_empty() {
-            touching.keep_slipping(&mut modes, (&changes.before, &settled.at_limit));
-        }
-        if let Cause::Lifts(_) | Cause::Breaks(..) = cause {
-            // Contacts that lift at the same instant, by symmetry or because what held them slips, would otherwise close each other again and again.
-            let was_open = |k: usize| changes.before[k] == Mode::Open && !touching.is_compliant(k);
-            modes = touching.without_unpressed(system, at, modes, was_open)?;
-        }
-        let as_found = modes.clone();
-        modes = touching.without_contradictions(system, at, modes, (resting, &settled.at_limit));
-        let mut pairs = modes.iter().zip(&changes.before);
-        if let Cause::Breaks(k, _) = cause
-            && changes.impacts.is_empty()
-            && pairs.all(|(after, before)| after.is_like(*before))
-            && touching.take_back(now.t, k)
-        {
-            // Nothing else happens, and its friction is used up again at this instant.
-            modes = as_found;
-        }
-        touching.set_modes(modes);
         Ok(())
     }
 
@@ -599,115 +471,6 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         }
     }
 
-    /// Which slips in two directions fade, those that `errors` of rates may have turned, of contacts that stick if they are at rest.
-    fn fading_slips(
-        &self,
-        touching: &UnilateralState,
-        now: &Point<S::Vector>,
-        errors: &[f64],
-    ) -> Result<Vec<bool>, StepError> {
-        let system = self.system.get();
-        let at = At {
-            t: now.t,
-            q: &now.q,
-            v: &now.v,
-            u: &self.inputs,
-        };
-        let mut fading = touching.fading_slips(system, at, errors)?;
-        if !fading.contains(&true) {
-            return Ok(fading);
-        }
-        let closed: Vec<bool> = (touching.modes().iter())
-            .map(|mode| *mode != Mode::Open)
-            .collect();
-        let stops: Vec<bool> = (0..closed.len())
-            .map(|k| fading[touching.first(k)])
-            .collect();
-        let resting = resting_or_stopped(system, touching, now, (&closed, &stops));
-        let Ok(next) = touching.settled(system, at, &closed, &resting, &[]) else {
-            // What they do is found out for all contacts.
-            fading.fill(false);
-            return Ok(fading);
-        };
-        let next = next.modes;
-        for (fading, next) in fading.iter_mut().zip(next) {
-            *fading &= next == Mode::Sticks;
-        }
-        Ok(fading)
-    }
-
-    /// Brings a state onto the contacts that are closed, without the slips that have stopped, which sets what contacts do.
-    fn hold_closed(
-        &self,
-        touching: &mut UnilateralState,
-        now: &mut Point<S::Vector>,
-        (closed, stopped, is_hit): (&[bool], &[bool], bool),
-    ) -> Result<(), StepError> {
-        let system = self.system.get();
-        // A slip that has stopped is at rest, and so is one at a contact that has just closed.
-        let rests = touching.resting(system, (now.t, &now.q, &now.v), closed);
-        let mode = |k: usize| match touching.modes()[k] {
-            _ if !closed[k] => Mode::Open,
-            _ if stopped[k] => Mode::Sticks,
-            Mode::Open => Mode::Slides(0.0),
-            // An impact elsewhere may have made it slip, beyond what the impulse of its friction could prevent.
-            _ if !rests[k] && is_hit => Mode::Slides(0.0),
-            mode => mode,
-        };
-        let held: Vec<Mode> = (0..closed.len()).map(mode).collect();
-        touching.set_modes(held.clone());
-        let as_found = now.clone();
-        let projected = project_onto_closed_contacts(system, touching, now);
-        let energy = |now: &Point<S::Vector>| system.kinetic_energy(now.t, &now.q, &now.v);
-        let is_held = projected.is_ok() && energy(now) >= (1.0 - SHARE_OF_REST) * energy(&as_found);
-        if is_held
-            || !stopped
-                .iter()
-                .zip(closed)
-                .any(|(stops, closed)| *stops && *closed)
-        {
-            return projected.map(|_| ());
-        }
-        // Near a dead centre a slip stops whatever friction does, and to hold it there would stop the machine. So forces decide first.
-        *now = as_found.clone();
-        if self.goes_on(touching, now, (closed, stopped))? {
-            return Ok(());
-        }
-        projected?;
-        *now = as_found;
-        touching.set_modes(held);
-        project_onto_closed_contacts(system, touching, now)?;
-        Ok(())
-    }
-
-    /// Whether slips that have stopped go on at once. The state is then on the closed contacts with these slips.
-    fn goes_on(
-        &self,
-        touching: &mut UnilateralState,
-        now: &mut Point<S::Vector>,
-        (closed, stopped): (&[bool], &[bool]),
-    ) -> Result<bool, StepError> {
-        let system = self.system.get();
-        let with_slip = (touching.modes().iter().zip(stopped))
-            .map(|(mode, stops)| if *stops { Mode::Slides(0.0) } else { *mode })
-            .collect();
-        touching.set_modes(with_slip);
-        project_onto_closed_contacts(system, touching, now)?;
-        let resting = resting_or_stopped(system, touching, now, (closed, stopped));
-        let at = At {
-            t: now.t,
-            q: &now.q,
-            v: &now.v,
-            u: &self.inputs,
-        };
-        let goes_on = match touching.settled(system, at, closed, &resting, &[]) {
-            Err(error) if is_of_several(&error) => return Ok(false),
-            other => other?,
-        };
-        let mut pairs = goes_on.modes.iter().zip(stopped);
-        Ok(!pairs.any(|(mode, stops)| *stops && *mode == Mode::Sticks))
-    }
-
     /// Records the end of a step.
     pub(super) fn accept_contacts(&mut self, now: &Point<S::Vector>) {
         let Some(touching) = &self.touching else {
@@ -722,20 +485,6 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
         }
     }
-}
-
-/// For each coordinate the rate up to which it may be what the errors of steps have left of none.
-fn fading_rate<V: Vector>(tolerance: &Tolerance<V>, v: &V) -> impl Fn(usize) -> f64 {
-    let Tolerance { relative, absolute } = tolerance;
-    move |i| FADING * (absolute.as_slice()[i] + relative * v.as_slice()[i].abs())
-}
-
-/// Whether an error says that several contacts together admit no motion.
-fn is_of_several(error: &StepError) -> bool {
-    let StepError::Contact { trouble, .. } = error else {
-        return false;
-    };
-    matches!(trouble, ContactTrouble::Jammed | ContactTrouble::Unsolved)
 }
 
 /// Impacts of what touches, until none closes; they are added to the changes at this instant. The answer is what touches.
@@ -778,20 +527,6 @@ fn meet<S: System>(
     Ok(touches)
 }
 
-/// Which contacts rest: by their rates, because they have just stopped, or because they stick.
-fn resting_or_stopped<S: System>(
-    system: &S,
-    touching: &UnilateralState,
-    now: &Point<S::Vector>,
-    (closed, stopped): (&[bool], &[bool]),
-) -> Vec<bool> {
-    let mut resting = touching.resting(system, (now.t, &now.q, &now.v), closed);
-    for (k, resting) in resting.iter_mut().enumerate() {
-        *resting |= stopped[k] || touching.modes()[k] == Mode::Sticks;
-    }
-    resting
-}
-
 /// The energy stored in each compliant contact, in J.
 fn stored_by_each<S: System>(
     system: &S,
@@ -799,29 +534,4 @@ fn stored_by_each<S: System>(
     now: &Point<S::Vector>,
 ) -> Vec<f64> {
     touching.stored_by_each(system, now.t, &now.q, &now.v)
-}
-
-/// Projects a state onto the closed contacts and the constraints; returns the state of these constraints.
-pub(super) fn project_onto_closed_contacts<S: System>(
-    system: &S,
-    touching: &UnilateralState,
-    now: &mut Point<S::Vector>,
-) -> Result<Option<Constraints<S::Vector>>, StepError> {
-    let constrained = touching.machine(system);
-    if constrained.constraints().len() == 0 {
-        return Ok(None);
-    }
-    let mut constraints = Constraints::new(&constrained, &now.q, &now.v);
-    let as_found = now.q.clone();
-    // The rates of contacts that close are known to the round-off of those with which they closed, however small they are now.
-    let first = system.constraints().len();
-    for (place, rate) in touching.rates_of_held().enumerate() {
-        constraints.record_rate(first + place, rate);
-    }
-    let begun = constraints.begin(&constrained, &mut now.place(), None);
-    begun.map_err(|error| touching.explain(system, error))?;
-    touching.check_displacement(system, now.t, (&as_found, &now.q), &now.v)?;
-    // Contacts that share a load stay dependent for as long as they are closed.
-    constraints.at_fork = false;
-    Ok(Some(constraints))
 }

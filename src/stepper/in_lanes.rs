@@ -1,13 +1,13 @@
-//! One try of the steps of several steppers at once, in vector lanes.
+//! One attempt at the steps of several steppers at once, in vector lanes.
 //!
-//! Each stepper chooses the length of its step and decides about the try: only the stages in between are computed for all of them
+//! Each stepper chooses the length of its step and decides about the attempt: only the stages in between are computed for all of them
 //! together, by the same sums as in a single stepper. So each has the bits that it has alone. A lane in which something is exceptional
 //! (accelerations without a value or an infinite error) is tried again alone, which then gives the error.
 //!
 //! With constraints, each new point is projected alone, and its error is estimated there. While a unilateral contact is closed, which
 //! other equations describe, a stepper tries its steps alone.
 //!
-//! Of a step by Taylor series the expansion at its end and the powers along it are computed for all of them (`in_lanes/series.rs`).
+//! In steps by Taylor series, the expansions at their ends and the powers along them are computed together (`in_lanes/series.rs`).
 
 mod series;
 
@@ -57,7 +57,7 @@ pub(crate) trait Evaluate {
     }
 }
 
-/// A step that is being tried: the length of the try, whether it would be the last step, and the limits on its length.
+/// A step that is being tried: the length of the attempt, whether it would be the last step, and the limits on its length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Try {
     h: f64,
@@ -80,9 +80,9 @@ pub(crate) struct Tries {
     is_last: [bool; WIDTH],
     are_first: [bool; WIDTH],
     errors: [f64; WIDTH],
-    /// Whether the machines have constraints: then a try in lanes ends at the new point, which each stepper projects.
+    /// Whether the machines have constraints: then an attempt in lanes ends at the new point, which each stepper projects.
     have_constraints: bool,
-    /// The lanes in which nothing exceptional happened in the last try.
+    /// The lanes in which nothing exceptional happened in the last attempt.
     succeeded: LaneMask,
     /// The ends of steps by series, if the method is that.
     series: Option<Expansions>,
@@ -99,7 +99,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         is_explicit && self.model.system.get().contacts().len() == 0 && self.model.law.is_constant()
     }
 
-    /// Whether its next try may be made in lanes: not while constraints are dependent or a unilateral contact is closed, which requires
+    /// Whether its next attempt may be made in lanes: not while constraints are dependent or a unilateral contact is closed, which requires
     /// other equations, and not up to where contacts change, where a motion by series is not expanded.
     pub(crate) fn may_try_in_lanes(&self) -> bool {
         let constraints = self.model.constraints.as_ref();
@@ -109,7 +109,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             && !(self.ends_at_change && self.taylor.is_some())
     }
 
-    /// Begins a step and its first try.
+    /// Begins a step and its first attempt.
     pub(crate) fn begin_in_lanes(&mut self) -> Result<Try, StepError> {
         if self.changed {
             self.refresh_acceleration()?;
@@ -126,7 +126,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         Try { h, last, limits }
     }
 
-    /// Ends a try; returns the next one, or `None` if the step was taken.
+    /// Ends an attempt; returns the next one, or `None` if the step was taken.
     pub(crate) fn end_in_lanes(
         &mut self,
         lane: usize,
@@ -146,7 +146,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.decide_on(of, tried)
     }
 
-    /// Makes a try alone and ends it like [`end_in_lanes`](Self::end_in_lanes).
+    /// Makes an attempt alone and ends it like [`end_in_lanes`](Self::end_in_lanes).
     pub(crate) fn end_alone(&mut self, of: Try) -> Result<Option<Try>, StepError> {
         let tried = if self.taylor.is_some() {
             self.attempt_in_series(of.h, of.last)
@@ -225,7 +225,7 @@ impl Tries {
             }
     }
 
-    /// Puts the beginning of a step and the length of its try into a lane; a step by series goes to its end.
+    /// Puts the beginning of a step and the length of its attempt into a lane; a step by series goes to its end.
     pub fn put<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &mut self,
         lane: usize,
@@ -248,7 +248,7 @@ impl Tries {
         self.are_first[lane] = of.control.is_first;
     }
 
-    /// Leaves the next try of every step to its own stepper.
+    /// Leaves the next attempt of every step to its own stepper.
     pub fn skip(&mut self) {
         self.succeeded = 0;
     }
@@ -263,7 +263,7 @@ impl Tries {
         <Wide as Number>::run(Attempt(self, machines));
     }
 
-    /// Passes the result of a try to its stepper, and returns the error of the step relative to the tolerance, which is meaningless with
+    /// Passes the result of an attempt to its stepper, and returns the error of the step relative to the tolerance, which is meaningless with
     /// constraints. `None` if the step has to be tried alone.
     fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &self,
@@ -398,7 +398,7 @@ fn finite_lanes<R: Scalar<Stored = Wide>>(a: &[Wide]) -> LaneMask {
     bits(&sum.are_finite())
 }
 
-/// One try of every lane, in the widest registers available.
+/// One attempt of every lane, in the widest registers available.
 struct Attempt<'a, E>(&'a mut Tries, &'a mut E);
 
 impl<E: Evaluate> Kernel<Wide> for Attempt<'_, E> {

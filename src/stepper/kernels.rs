@@ -23,7 +23,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Kernel<f64> for Attempt<'_, '
     }
 }
 
-/// The end of a try: [`Stepper::finish`].
+/// The end of an attempt: [`Stepper::finish`].
 #[cfg(feature = "std")]
 pub(super) struct Finish<'a, 's, S: System, L, A> {
     pub stepper: &'a mut Stepper<'s, S, L, A>,

@@ -217,7 +217,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
     }
 
-    /// The state at a time within the last step, from [`t_before`](Self::t_before) to now: on the continuous extension of the
+    /// The state at a time within the last step, from [`t_before`](Self::t_before) to now: by the dense output of the
     /// method, projected onto the constraints.
     ///
     /// It costs as much as [`interpolant`](Self::interpolant), which is better for many times.

@@ -20,7 +20,7 @@ use crate::{Number, System, Vector};
 const ROUNDOFF_ACROSS: f64 = 1e-7;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Prepares the tries of a step.
+    /// Prepares the attempts at a step.
     #[inline(always)]
     pub(super) fn begin_tries(&mut self) -> Result<StepLimits, StepError> {
         if self.control.work.steps == 0 && self.control.step == 0.0 {
@@ -39,7 +39,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         })
     }
 
-    /// The length of the next try, and whether it would be the last step.
+    /// The length of the next attempt, and whether it would be the last step.
     #[inline(always)]
     pub(super) fn choose(&mut self, limits: StepLimits) -> (f64, bool) {
         let last = self.control.is_last(limits.distance_to_end, self.longest);
@@ -52,7 +52,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         (h, last)
     }
 
-    /// Decides about a try of length `h`: returns whether the step is taken; otherwise another try follows.
+    /// Decides about an attempt of length `h`: returns whether the step is taken; otherwise another attempt follows.
     #[inline(always)]
     pub(super) fn decide(
         &mut self,
@@ -83,7 +83,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return Ok(false);
         }
         let error = cause.unwrap_or_else(|| self.too_small());
-        // The present state is the end of the last good step, not the end of this try.
+        // The present state is the end of the last good step, not the end of this attempt.
         self.now.copy_from(&self.before);
         Err(error)
     }
@@ -115,7 +115,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         f64::run(Attempt { stepper, h, last })
     }
 
-    /// Completes a try whose stages are done and whose new point is in `now`: projects it onto the constraints and returns the error
+    /// Completes an attempt whose stages are done and whose new point is in `now`: projects it onto the constraints and returns the error
     /// relative to the tolerance.
     #[cfg(feature = "std")]
     pub(super) fn finish(&mut self, h: f64) -> Result<f64, StepError> {
@@ -154,7 +154,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.finish_within::<R>(h)
     }
 
-    /// The part of a try after its stages, within a kernel: projects the new point onto the constraints and estimates the error.
+    /// The part of an attempt after its stages, within a kernel: projects the new point onto the constraints and estimates the error.
     #[inline(always)]
     pub(super) fn finish_within<R: Scalar<Stored = f64>>(
         &mut self,
@@ -367,7 +367,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         control::growth(self.method, error, self.control.error_before, is_first)
     }
 
-    /// The factor for the length of the next try after this one was rejected.
+    /// The factor for the length of the next attempt after this one was rejected.
     fn reduction(&mut self, error: f64) -> f64 {
         let is_first = self.control.is_first;
         #[cfg(feature = "std")]

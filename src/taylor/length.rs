@@ -1,7 +1,7 @@
 //! The length of a step by series: its last terms are tolerable.
 
 use crate::Vector;
-use crate::math::{larger, rough_exp2, rough_log2};
+use crate::math::{larger, rough_exp2, rough_exp2_within, rough_log2};
 use crate::tolerance::Tolerance;
 
 /// The largest ratios of both last terms of rates to their bounds, which are this part of the tolerable errors; `None` unless both are positive and finite.
@@ -158,8 +158,9 @@ pub(crate) fn usual_lengths<const W: usize>(
     for (one, other) in one.iter_mut().zip(other) {
         *one = if *one < other { *one } else { other };
     }
+    // A root of at least the tenth order of a number that is positive and finite.
     for one in &mut one {
-        *one = rough_exp2(*one);
+        *one = rough_exp2_within(*one);
     }
     one
 }

@@ -1,5 +1,6 @@
 //! The machines of the library run and are compared with closed forms, publications and
 //! results in higher precision.
+#![allow(clippy::too_many_lines, reason = "a test reads from top to bottom")]
 
 mod collisions;
 mod crushers;
@@ -8,6 +9,7 @@ mod flights;
 mod formulations;
 mod friction;
 mod guides_and_contacts;
+mod in_pieces;
 mod known_runs;
 mod library;
 mod long_runs;

@@ -1,4 +1,5 @@
 //! Tests of the runtime on systems typed in by hand: motions, events, energy, methods, user errors.
+#![allow(clippy::too_many_lines, reason = "a test reads from top to bottom")]
 
 mod accuracy;
 mod adapted;

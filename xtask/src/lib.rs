@@ -1,7 +1,8 @@
-//! Compiles `machines/` into the files of `generated/`; a test compares them with the committed ones.
+//! Compiles `machines/` into the files of `generated/`, and lists sources; a test compares these with the committed files.
 
 pub mod api;
 pub mod modules;
+mod sources;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -92,6 +93,7 @@ pub fn generate(root: &Path) -> Result<Vec<Generated>, String> {
         path: Path::new("docs").join("quantities.md"),
         text: quantities(),
     });
+    files.extend(sources::lists(root)?);
     files.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(files)
 }

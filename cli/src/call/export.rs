@@ -45,9 +45,10 @@ pub struct Fmu {
     /// Which version of the interface: 3 or 2.
     #[arg(long, value_name = "VERSION", default_value = "3", value_parser = clap::value_parser!(u8).range(2..=3))]
     pub fmi: u8,
-    /// The interfaces of the unit: model exchange (`me`), co-simulation (`cs`), or both.
-    #[arg(long, value_name = "KIND,…", value_enum, value_delimiter = ',', default_values_t = [UnitKind::ModelExchange, UnitKind::CoSimulation])]
-    pub kind: Vec<UnitKind>,
+    /// The interfaces of the unit: model exchange (`me`), co-simulation (`cs`), or both, which is the default, except for machines with contacts or
+    /// guides, whose units have co-simulation only.
+    #[arg(long, value_name = "KIND,…", value_enum, value_delimiter = ',')]
+    pub kind: Option<Vec<UnitKind>>,
     /// The variables that are outputs, as in `--outputs theta1,energy.kinetic`, in place of the outputs of the spec or the coordinates.
     #[arg(long, value_name = "NAME,…", value_parser = names)]
     pub outputs: Option<Names>,
@@ -60,7 +61,7 @@ pub struct Fmu {
     #[arg(long, value_enum)]
     pub method: Option<UnitMethod>,
     /// Relative and absolute tolerance of co-simulation, unless the importer gives one.
-    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, default_value = "1e-9", value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
     /// Change the default of a parameter or an input, as in `--set omega=120`.
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]

@@ -80,7 +80,7 @@ pub struct Fit {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = count)]
     pub starts: u64,
     /// Relative and absolute tolerance of each step.
-    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, default_value = "1e-9", value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
     /// The integration method: dop853, dopri5, bs32, or radau5 for stiff machines.
     #[arg(long, value_name = "NAME", default_value = "dop853")]

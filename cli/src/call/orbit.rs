@@ -44,7 +44,7 @@ pub struct Orbit {
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub settle: Option<f64>,
     /// Relative and absolute tolerance of each step.
-    #[arg(long, default_value_t = 1e-11, value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, default_value = "1e-11", value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
     /// Follow the orbit along a range of a parameter or an input, as in `--along omega=10..300:200`.
     #[arg(long, value_name = "NAME=FROM..TO:COUNT", value_parser = vary, allow_hyphen_values = true)]
@@ -87,11 +87,11 @@ pub struct Sensitivities {
     /// What to differentiate: coordinates, `der(x)`, outputs; by default the outputs of the spec or, if it has none, its coordinates.
     #[arg(long, value_name = "NAME,…")]
     pub of: Vec<String>,
-    /// Integrate to this time, in s; before 0 backward in time.
+    /// Integrate to this time, in s; if it is before 0, backward in time.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: f64,
     /// Relative and absolute tolerance of each step, of the motion and of its derivatives.
-    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, default_value = "1e-9", value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
     /// The integration method: dop853, dopri5, bs32, or radau5 for stiff machines.
     #[arg(long, value_name = "NAME", default_value = "dop853")]

@@ -105,7 +105,7 @@ pub struct Spectrum {
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub lines: usize,
     /// Leave out lines below this fraction of the greatest one.
-    #[arg(long, value_name = "SHARE", default_value_t = 1e-3, value_parser = positive)]
+    #[arg(long, value_name = "SHARE", default_value = "1e-3", value_parser = positive)]
     pub least: f64,
     /// Write the amplitudes to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]

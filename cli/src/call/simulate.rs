@@ -48,7 +48,7 @@ pub struct Simulate {
     /// `--input u=table.csv[:COLUMN][,hold|linear|cubic][,end=hold|error|repeat]`.
     #[arg(long = "input", value_name = "NAME=FORMULA|FILE", value_parser = assignment, allow_hyphen_values = true)]
     pub inputs: Vec<Assignment>,
-    /// Integrate to this time, in s; before 0 backward in time.
+    /// Integrate to this time, in s; if it is before 0, backward in time.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: f64,
     /// Relative and absolute tolerance of each step; by default 1e-9, and in double-double what its digits allow.

@@ -17,7 +17,7 @@ pub struct Sweep {
     pub start: Start,
     #[command(flatten)]
     pub keep: Keep,
-    /// Integrate each run to this time, in s; before 0 backward in time.
+    /// Integrate each run to this time, in s; if it is before 0, backward in time.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: Option<f64>,
     /// Relative and absolute tolerance of each step; by default 1e-9.

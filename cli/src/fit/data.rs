@@ -63,7 +63,7 @@ pub fn read_all(call: &call::Fit) -> Result<Vec<Given>, Failure> {
 fn read(text: &str) -> Result<Given, String> {
     let wanted =
         "expected a table `.csv` or `.parquet`, followed by NAME=VALUE separated by commas";
-    let (path, rest) = text.split_at(end_of_file_name(text).ok_or(wanted)?);
+    let (path, rest) = text.split_at(signals::end_of_table_name(text, &[',']).ok_or(wanted)?);
     let mut given = Given {
         path: PathBuf::from(path),
         label: path.to_owned(),
@@ -85,20 +85,6 @@ fn read(text: &str) -> Result<Given, String> {
         list.sort_by_key(|set| set.name.contains('['));
     }
     Ok(given)
-}
-
-/// Where the name of a table ends that settings may follow.
-fn end_of_file_name(text: &str) -> Option<usize> {
-    let lower = text.to_ascii_lowercase();
-    let ends = [".csv", ".parquet"].iter().flat_map(|ending| {
-        let found = lower.match_indices(ending);
-        found.map(|(at, ending)| at + ending.len())
-    });
-    let is_end = |end: &usize| {
-        let rest = text.get(*end..);
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(','))
-    };
-    ends.filter(is_end).min()
 }
 
 /// The settings behind the name of a table, each with its options; `None` if options come first.

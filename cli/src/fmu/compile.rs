@@ -4,7 +4,7 @@ use std::env::consts::{ARCH, OS};
 use std::io;
 use std::process::{Command, Stdio};
 
-use super::{Unit, Version};
+use super::{Unit, Version, run};
 use crate::failure::Failure;
 
 /// The platform of a library.
@@ -135,6 +135,10 @@ fn library(
     for (name, text) in sources {
         std::fs::write(folder.path().join(name), text).map_err(unkept)?;
     }
+    let further = match &unit.run {
+        Some(run) => run::compile(&run.text, folder.path())?,
+        None => Vec::new(),
+    };
     let library = format!("{}.{}", unit.identifier, platform.ending);
     let mut command = Command::new(program);
     command.args(words);
@@ -143,7 +147,16 @@ fn library(
     command.current_dir(folder.path());
     command.args(["-std=c99", "-O2", "-fPIC", "-shared", "-s"]);
     command.args(["-ffp-contract=off", "-fvisibility=hidden", "-w"]);
-    command.args(["-o", &library, unit.version.source(), "-lm"]);
+    command.args(["-o", &library, unit.version.source()]);
+    if unit.has_run() {
+        // Nothing of the run is seen from outside, and only what is called stays.
+        command.arg(run::LIBRARY).args(match OS {
+            "macos" => &["-Wl,-dead_strip"][..],
+            _ => &["-Wl,--exclude-libs,ALL", "-Wl,--gc-sections"],
+        });
+        command.args(further);
+    }
+    command.arg("-lm");
     command.stdin(Stdio::null()).stdout(Stdio::null());
     let output = command.output().map_err(|error| {
         Failure::run(format!(

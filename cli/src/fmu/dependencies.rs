@@ -57,6 +57,8 @@ impl<'a> Dependencies<'a> {
                 let all = self.results(Role::Multipliers);
                 all.into_iter().nth(i).unwrap_or_default()
             }
+            // Of runs, which have no lists of dependencies.
+            VariableKind::OfContact(..) => BTreeSet::new(),
             VariableKind::KineticEnergy => result_of(Role::KineticEnergy),
             VariableKind::PotentialEnergy => result_of(Role::PotentialEnergy),
             VariableKind::Fact(i) => result_of(Role::Assumption(i)),

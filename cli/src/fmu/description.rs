@@ -123,7 +123,9 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
         Version::Three => derivatives,
         Version::Two => "",
     };
+    let saves = if unit.has_run() { "false" } else { "true" };
     let interpolates = match (unit.version, kind) {
+        _ if unit.has_run() => "",
         (Version::Two, UnitKind::CoSimulation) if !unit.program.inputs.is_empty() => "true",
         _ => "",
     };
@@ -140,8 +142,8 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
     let attributes = [
         ("modelIdentifier", unit.identifier.as_str()),
         ("needsCompletedIntegratorStep", needs_steps),
-        (get, "true"),
-        (serialize, "true"),
+        (get, saves),
+        (serialize, saves),
         (provides, derivatives),
         ("providesAdjointDerivatives", adjoint),
         ("canHandleVariableCommunicationStepSize", steps),
@@ -150,6 +152,8 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
     ];
     match unit.version {
         Version::Three => document.leaf(name, &attributes),
+        // A unit with a run has no sources.
+        Version::Two if unit.has_run() => document.leaf(name, &attributes),
         Version::Two => {
             document.open(name, &attributes);
             document.open("SourceFiles", &[]);
@@ -195,7 +199,8 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
         },
         VariableKind::Parameter(i) => Row {
             causality: "parameter",
-            variability: "tunable",
+            // The run of a unit is made for its parameters.
+            variability: if unit.has_run() { "fixed" } else { "tunable" },
             ..row.starting_at(unit.machine.parameter_values()[i])
         },
         VariableKind::Input(i) => Row {
@@ -213,7 +218,8 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
         | VariableKind::KineticEnergy
         | VariableKind::PotentialEnergy
         | VariableKind::Fact(_)
-        | VariableKind::Event(_) => row,
+        | VariableKind::Event(_)
+        | VariableKind::OfContact(..) => row,
     }
 }
 
@@ -271,6 +277,11 @@ fn unit_and_docs(unit: &Unit<'_>, kind: VariableKind, units: &mut Units) -> (Str
             let Assignment { name, value } = &unit.events[i];
             let docs = format!("Changes sign at the event {name}: {}", words(value));
             (units.of_slot(slot), docs)
+        }
+        VariableKind::OfContact(contact, quantity) => {
+            let name = unit.run.as_ref().map_or("", |run| &run.contacts[contact]);
+            let what = ["Gap", "Normal force", "Friction", "Slip"][quantity];
+            (String::new(), format!("{what} of {name}"))
         }
         VariableKind::Count(i) => {
             let name = &unit.events[i].name;
@@ -369,7 +380,20 @@ fn structure(document: &mut Document, unit: &Unit<'_>) {
     unknown.dedup();
     let indicators = of(|kind| matches!(kind, VariableKind::Fact(_) | VariableKind::Event(_)));
     let indicators: Vec<usize> = indicators.collect();
-    let dependencies = Dependencies::new(unit);
+    let dependencies = (!unit.has_run()).then(|| Dependencies::new(unit));
+    // Forces of contacts make everything depend on everything, as a missing list of dependencies says.
+    let attributes = |reference: usize, is_at_start: bool| {
+        let dependencies = dependencies.as_ref()?;
+        let of = dependencies.of(reference, is_at_start);
+        let kinds = joined(of.iter().map(|(_, kind)| (*kind).to_owned()));
+        // Version 2.0 counts variables from 1.
+        let first = match unit.version {
+            Version::Three => 0,
+            Version::Two => 1,
+        };
+        let on = joined(of.iter().map(|(k, _)| (k + first).to_string()));
+        Some([on, kinds])
+    };
     document.open("ModelStructure", &[]);
     match unit.version {
         Version::Three => {
@@ -380,17 +404,9 @@ fn structure(document: &mut Document, unit: &Unit<'_>) {
                 ("EventIndicator", &indicators),
             ] {
                 for reference in references {
-                    let of = dependencies.of(*reference, name == "InitialUnknown");
-                    let on = joined(of.iter().map(|(k, _)| k.to_string()));
-                    let kinds = joined(of.iter().map(|(_, kind)| (*kind).to_owned()));
-                    document.element_with_empty(
-                        name,
-                        &[
-                            ("valueReference", &reference.to_string()),
-                            ("dependencies", &on),
-                            ("dependenciesKind", &kinds),
-                        ],
-                    );
+                    let named = ("valueReference", reference.to_string());
+                    let of = attributes(*reference, name == "InitialUnknown");
+                    unknown_element(document, name, named, of);
                 }
             }
         }
@@ -405,23 +421,35 @@ fn structure(document: &mut Document, unit: &Unit<'_>) {
                 }
                 document.open(name, &[]);
                 for reference in references {
-                    let of = dependencies.of(*reference, name == "InitialUnknowns");
-                    let on = joined(of.iter().map(|(k, _)| (k + 1).to_string()));
-                    let kinds = joined(of.iter().map(|(_, kind)| (*kind).to_owned()));
-                    document.element_with_empty(
-                        "Unknown",
-                        &[
-                            ("index", &(reference + 1).to_string()),
-                            ("dependencies", &on),
-                            ("dependenciesKind", &kinds),
-                        ],
-                    );
+                    let named = ("index", (reference + 1).to_string());
+                    let of = attributes(*reference, name == "InitialUnknowns");
+                    unknown_element(document, "Unknown", named, of);
                 }
                 document.close();
             }
         }
     }
     document.close();
+}
+
+/// An element of the model structure, with its dependencies if they are known.
+fn unknown_element(
+    document: &mut Document,
+    name: &str,
+    (attribute, value): (&str, String),
+    dependencies: Option<[String; 2]>,
+) {
+    match dependencies {
+        None => document.leaf(name, &[(attribute, &value)]),
+        Some([on, kinds]) => document.element_with_empty(
+            name,
+            &[
+                (attribute, &value),
+                ("dependencies", &on),
+                ("dependenciesKind", &kinds),
+            ],
+        ),
+    }
 }
 
 fn joined(words: impl Iterator<Item = String>) -> String {

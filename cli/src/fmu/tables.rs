@@ -71,6 +71,12 @@ pub fn text(unit: &Unit<'_>) -> String {
     text.push_str("\n/* Which coordinates are angles, or pure numbers, which may be angles. */\n");
     let _ = writeln!(text, "enum {{ ANGLES = {} }};", angles.len()); // writing to a String cannot fail
     list(&mut text, "int", "ANGLE", angles.into_iter(), "0");
+    if let Some(run) = &unit.run {
+        text.push_str("\n/* The motion is that of a run: see the runtime. */\n#define HAS_RUN\n");
+        let _ = writeln!(text, "enum {{ CONTACTS = {} }};", run.contacts.len()); // cannot fail
+    } else {
+        text.push_str("\nenum { CONTACTS = 0 };\n");
+    }
     let has = |kind| u8::from(unit.kinds.contains(&kind));
     let _ = write!(
         text,

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use lagrangian_program::Program;
 use lagrangian_units::state_of;
 
+use super::run::OF_CONTACTS;
 use crate::call::Assignment;
 use crate::failure::Failure;
 
@@ -26,6 +27,8 @@ pub enum VariableKind {
     Event(usize),
     /// The number of occurrences of an event.
     Count(usize),
+    /// A quantity of a contact: the indices of the contact and of the quantity.
+    OfContact(usize, usize),
 }
 
 /// A variable; its reference is its index.
@@ -47,8 +50,8 @@ pub struct Variables {
 
 impl Variables {
     /// The variables of a machine. The outputs are those of its spec or, if there are none, its coordinates. The last outputs of
-    /// the program are the formulas of events.
-    pub fn new(program: &Program, events: &[Assignment]) -> Variables {
+    /// the program are the formulas of events; `contacts` are those of a run.
+    pub fn new(program: &Program, events: &[Assignment], contacts: &[String]) -> Variables {
         let names = |slots: &[lagrangian_program::Slot]| -> Vec<String> {
             let names = slots.iter().map(|slot| slot.name.to_string());
             names.map(|name| structured(&name)).collect()
@@ -110,6 +113,7 @@ impl Variables {
         all.extend(each(&events, VariableKind::Count, |name| {
             format!("event.{name}")
         }));
+        all.extend(contacts.iter().enumerate().flat_map(of_contact));
         let mut taken = BTreeSet::new();
         let all: Vec<Variable> = all
             .into_iter()
@@ -175,21 +179,36 @@ impl Variables {
     }
 }
 
+/// The kinds and names of the variables of a contact.
+fn of_contact((contact, name): (usize, &String)) -> Vec<(VariableKind, String)> {
+    let name = name.replace(['\'', '\\', '"'], "");
+    let of = OF_CONTACTS.iter().enumerate();
+    of.map(|(quantity, what)| {
+        let kind = VariableKind::OfContact(contact, quantity);
+        (kind, format!("'{what}({name})'"))
+    })
+    .collect()
+}
+
 /// A name by the structured naming convention: an identifier with an index, or a quoted name.
 fn structured(name: &str) -> String {
     let (base, index) = match name.split_once('[') {
         Some((base, rest)) => (base, rest.strip_suffix(']')),
         None => (name, Some("1")),
     };
-    let is_word = base.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
-        && base.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let is_count =
         index.is_some_and(|index| !index.is_empty() && index.chars().all(|c| c.is_ascii_digit()));
-    if is_word && is_count || !name.is_ascii() {
+    if is_word(base) && is_count || !name.is_ascii() {
         name.to_owned()
     } else {
         format!("'{name}'")
     }
+}
+
+/// Whether a name consists of the letters a to z, digits and `_`, and begins with no digit.
+pub fn is_word(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
 /// A name that is not taken yet.

@@ -157,16 +157,7 @@ pub fn read(
     let Reader {
         mut robot, counts, ..
     } = reader;
-    let is_unneeded = |name: &&String| counts.iter().all(|(what, _)| what != *name);
-    robot.unneeded = ignored.iter().filter(is_unneeded).cloned().collect();
-    for (what, count) in counts {
-        robot.left_out.push(match (what.split_once(" of "), count) {
-            (Some((what, of)), 1) => format!("{what} of 1 {of}"),
-            (Some((what, of)), _) => format!("{what} of {count} {of}s"),
-            (None, 1) => format!("1 element `{what}`"),
-            (None, _) => format!("{count} elements `{what}`"),
-        });
-    }
+    robot.leave_out(ignored, counts);
     Some(robot)
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use lagrangian_emit::names::word;
 use lagrangian_spec::token::normalized;
 use lagrangian_spec::unit::Measure;
 
@@ -77,8 +78,7 @@ impl Names {
 
 /// A valid name for a spec.
 fn identifier(name: &str, kind: &str) -> String {
-    let letter = |c: char| if c.is_alphanumeric() { c } else { '_' };
-    let name: String = normalized(name).chars().map(letter).collect();
+    let name = word(&normalized(name), char::is_alphanumeric);
     let is_taken = TAKEN.contains(&name.as_str()) || Measure::named(&name).is_some();
     match name.chars().next() {
         _ if name.chars().all(|c| c == '_') => kind.to_owned(),

@@ -27,6 +27,23 @@ pub struct Robot {
     pub warnings: Vec<String>,
 }
 
+impl Robot {
+    /// Notes what was left out, and which of the names that the call ignores do not occur: these elements with their counts, `motor` or
+    /// `range of joint`.
+    pub fn leave_out(&mut self, ignored: &[String], counts: Vec<(String, usize)>) {
+        let is_unneeded = |name: &&String| counts.iter().all(|(what, _)| what != *name);
+        self.unneeded = ignored.iter().filter(is_unneeded).cloned().collect();
+        for (what, count) in counts {
+            self.left_out.push(match (what.split_once(" of "), count) {
+                (Some((what, of)), 1) => format!("{what} of 1 {of}"),
+                (Some((what, of)), _) => format!("{what} of {count} {of}s"),
+                (None, 1) => format!("1 element `{what}`"),
+                (None, _) => format!("{count} elements `{what}`"),
+            });
+        }
+    }
+}
+
 /// A rigid body, or a frame without mass.
 #[derive(Debug, Default)]
 pub struct Link {

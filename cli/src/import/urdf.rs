@@ -76,14 +76,7 @@ pub fn read(text: &str, ignored: &[String], faults: &mut Faults) -> Option<Robot
     let Reader {
         mut robot, counts, ..
     } = reader;
-    let is_unneeded = |name: &&String| counts.iter().all(|(what, _)| what != *name);
-    robot.unneeded = ignored.iter().filter(is_unneeded).cloned().collect();
-    for (what, count) in counts {
-        robot.left_out.push(match count {
-            1 => format!("1 element `{what}`"),
-            _ => format!("{count} elements `{what}`"),
-        });
-    }
+    robot.leave_out(ignored, counts);
     Some(robot)
 }
 

@@ -4,13 +4,11 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use lagrangian_linear::Complex;
-use lagrangian_linear::motion::SteadyMotion;
-use lagrangian_linear::search::Wanted;
 use lagrangian_linear::spectrum::{Mode, Modes, damping};
 use lagrangian_units::{rate_unit as unit_of_rate, state_of};
 
-use super::is_moving;
 use super::vary::{Critical, Point, Trace};
+use super::{Reached, is_moving};
 use crate::numbers::{after_number, number, shown_name, width_of_names};
 
 /// The ranges in which motions grow or do not exist, and the critical values.
@@ -118,13 +116,12 @@ fn text_of_critical(critical: &Critical) -> String {
 }
 
 /// The position of a steady motion, with one line for each coordinate.
-pub fn text_of_place(
-    names: &[&str],
-    units: &[&str],
-    start: &[f64],
-    wanted: &Wanted,
-    motion: &SteadyMotion,
-) -> String {
+pub fn text_of_place(names: &[&str], units: &[&str], reached: &Reached) -> String {
+    let Reached {
+        q: start,
+        wanted,
+        motion,
+    } = reached;
     let mut text = String::new();
     let width = width_of_names(names.iter().copied());
     let found = &motion.found;
@@ -168,16 +165,10 @@ pub fn text_of_place(
 }
 
 /// A steady motion with its modes.
-pub(super) fn text(
-    names: &[&str],
-    units: &[&str],
-    start: &[f64],
-    wanted: &Wanted,
-    motion: &SteadyMotion,
-) -> String {
-    let width = width_of_names(names.iter().copied());
+pub(super) fn text(names: &[&str], units: &[&str], reached: &Reached) -> String {
+    let motion = &reached.motion;
     let modes = &motion.modes;
-    let mut text = text_of_place(names, units, start, wanted, motion);
+    let mut text = text_of_place(names, units, reached);
     if modes.free > 0 {
         let directions = directions(modes.free);
         let _ = writeln!(
@@ -194,6 +185,7 @@ pub(super) fn text(
             modes.drifts
         );
     }
+    let width = width_of_names(names.iter().copied());
     for (index, mode) in modes.modes.iter().enumerate() {
         let _ = writeln!(text, "\nmode {}: {}", index + 1, text_of_mode(mode));
         // All six printed digits must be correct.

@@ -8,7 +8,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-use super::ending::{self, Endings};
+use super::ending::{self, Endings, SVG};
 use super::{FAILED, IS_TAKEN, RedirectedOutput};
 use crate::failure::Failure;
 
@@ -93,6 +93,23 @@ impl Destination {
     ) -> Result<Option<Destination>, Failure> {
         path.map(|path| Destination::new(option, path, endings))
             .transpose()
+    }
+
+    /// The destinations of `--out` and `--plot`, which are not where a document of `--json` goes.
+    ///
+    /// # Errors
+    /// The errors of [`new`](Self::new), or if a file and the document would be mixed.
+    pub fn out_and_plot(
+        (out, endings): (Option<&PathBuf>, Endings),
+        plot: Option<&PathBuf>,
+        is_document: bool,
+    ) -> Result<[Option<Destination>; 2], Failure> {
+        let files = [
+            Destination::of("--out", out, endings)?,
+            Destination::of("--plot", plot, SVG)?,
+        ];
+        keep_document_apart(files.iter().flatten(), is_document)?;
+        Ok(files)
     }
 
     /// The extension, one of those that the option accepts.

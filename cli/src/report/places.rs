@@ -1,4 +1,4 @@
-//! The values that a page computes at every instant, and rigidity relations among them.
+//! The values that a page computes at every instant, and which distances between points are constant.
 //!
 //! A point is represented by the index of its first component in one list of values; equal points share an index.
 //! Whether two points keep their distance for every motion is decided exactly in the prime field of [`Residue`], where

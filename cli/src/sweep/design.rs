@@ -1,5 +1,7 @@
 //! The design of a sweep in a call: `--vary`, `--together`, `--samples`, `--table`.
 
+use std::path::Path;
+
 use lagrangian_spec::model::Model;
 use lagrangian_spec::token::normalized;
 use lagrangian_sweep::design::{Distribution, Factor, Sampling};
@@ -29,40 +31,7 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
                 "--table lists all runs, one in each row: nothing else can be varied".into(),
             ));
         }
-        let (headings, mut rows) = super::numbers(path)?;
-        let names: Vec<String> = headings
-            .iter()
-            .map(|(name, _)| normalized(name).into_owned())
-            .collect();
-        let shown = path.display();
-        for (column, (name, (_, written))) in names.iter().zip(&headings).enumerate() {
-            let wrong =
-                |why: String| Failure::Call(format!("--table {shown}: column `{name}`: {why}"));
-            let unit = unit_of(model, name).map_err(wrong)?;
-            // Runs have values in the units that the spec declares.
-            if let Some(written) = written {
-                let factor = runs::factor(written, &unit).ok_or_else(|| {
-                    wrong(format!("expected a unit like {unit}, found {written}"))
-                })?;
-                for row in &mut rows {
-                    row[column] *= factor;
-                }
-            }
-        }
-        if rows.len() > MOST_LISTED {
-            return Err(Failure::Call(format!(
-                "--table {shown}: more than {MOST_LISTED} rows"
-            )));
-        }
-        if let Some(row) = rows
-            .iter()
-            .position(|row| row.iter().any(|value| !value.is_finite()))
-        {
-            return Err(Failure::Call(format!(
-                "--table {shown}: row {row} contains something that is not a finite number"
-            )));
-        }
-        return Ok(vec![Factor::List { names, rows }]);
+        return Ok(vec![listed(path, model)?]);
     }
     let mut factors: Vec<Factor> = Vec::new();
     let mut drawn: Option<usize> = None;
@@ -102,6 +71,42 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
             .map_err(|why| Failure::Call(format!("--together {group}: {why}")))?;
     }
     Ok(factors)
+}
+
+/// The values of a table, one run in each row.
+fn listed(path: &Path, model: &Model<'_>) -> Result<Factor, Failure> {
+    let (headings, mut rows) = super::numbers(path)?;
+    let names: Vec<String> = headings
+        .iter()
+        .map(|(name, _)| normalized(name).into_owned())
+        .collect();
+    let shown = path.display();
+    for (column, (name, (_, written))) in names.iter().zip(&headings).enumerate() {
+        let wrong = |why: String| Failure::Call(format!("--table {shown}: column `{name}`: {why}"));
+        let unit = unit_of(model, name).map_err(wrong)?;
+        // Runs have values in the units that the spec declares.
+        if let Some(written) = written {
+            let factor = runs::factor(written, &unit)
+                .ok_or_else(|| wrong(format!("expected a unit like {unit}, found {written}")))?;
+            for row in &mut rows {
+                row[column] *= factor;
+            }
+        }
+    }
+    if rows.len() > MOST_LISTED {
+        return Err(Failure::Call(format!(
+            "--table {shown}: more than {MOST_LISTED} rows"
+        )));
+    }
+    if let Some(row) = rows
+        .iter()
+        .position(|row| row.iter().any(|value| !value.is_finite()))
+    {
+        return Err(Failure::Call(format!(
+            "--table {shown}: row {row} contains something that is not a finite number"
+        )));
+    }
+    Ok(Factor::List { names, rows })
 }
 
 /// Refuses the options of sampling where nothing is sampled.

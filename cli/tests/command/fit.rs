@@ -1206,7 +1206,7 @@ fn what_is_wrong_is_said() {
     ]);
     assert_eq!(status, 1, "{said}");
     assert!(
-        said.contains("there is no motion where the search begins"),
+        said.contains("the search cannot begin from these values"),
         "{said}"
     );
 }

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::support::{Scratch, lagrangian, root};
 
 /// The files in a unit.
-fn files(unit: &Path) -> BTreeMap<String, Vec<u8>> {
+pub(super) fn files(unit: &Path) -> BTreeMap<String, Vec<u8>> {
     let file = fs::File::open(unit).expect("a unit");
     let mut archive = zip::ZipArchive::new(file).expect("an archive");
     let mut files = BTreeMap::new();
@@ -25,12 +25,12 @@ fn files(unit: &Path) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-fn text(files: &BTreeMap<String, Vec<u8>>, name: &str) -> String {
+pub(super) fn text(files: &BTreeMap<String, Vec<u8>>, name: &str) -> String {
     String::from_utf8(files[name].clone()).expect("text")
 }
 
 /// Makes a unit; returns the JSON that the command prints.
-fn unit(spec: &str, at: &Scratch, options: &[&str]) -> Value {
+pub(super) fn unit(spec: &str, at: &Scratch, options: &[&str]) -> Value {
     let arguments = [&["fmu", spec, "--out", at.path(), "--json"], options].concat();
     let output = lagrangian(&arguments);
     let said = String::from_utf8_lossy(&output.stderr);
@@ -39,7 +39,7 @@ fn unit(spec: &str, at: &Scratch, options: &[&str]) -> Value {
 }
 
 /// The value of an attribute on the line of the variable with this reference.
-fn attribute(description: &str, reference: usize, name: &str) -> Option<String> {
+pub(super) fn attribute(description: &str, reference: usize, name: &str) -> Option<String> {
     let mark = format!("valueReference=\"{reference}\"");
     let mut lines = description.lines();
     let line = lines.find(|line| line.contains(&mark))?;
@@ -47,7 +47,7 @@ fn attribute(description: &str, reference: usize, name: &str) -> Option<String> 
     Some(rest.split('"').next()?.to_owned())
 }
 
-fn run(command: &mut Command, input: &str) -> String {
+pub(super) fn run(command: &mut Command, input: &str) -> String {
     let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped());
     let mut child = pipes.stderr(Stdio::piped()).spawn().expect("it runs");
     let mut pipe = child.stdin.take().expect("a pipe");
@@ -764,15 +764,15 @@ fn what_no_unit_can_be_is_refused() {
     for (spec, options, status, words) in [
         (
             "block_on_incline",
-            &[][..],
+            &["--kind", "me"][..],
             1,
-            "of `sliding` sticks or slides",
+            "write --kind cs",
         ),
         (
             "contacts/colliding_crusher",
-            &[],
+            &["--sources-only"],
             1,
-            "of `contacts` is closed",
+            "the run is no C",
         ),
         (
             "double_pendulum",

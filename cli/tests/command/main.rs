@@ -1,4 +1,5 @@
 //! The command line as a user calls it.
+#![allow(clippy::too_many_lines, reason = "a test reads from top to bottom")]
 
 mod audit;
 mod books;
@@ -18,6 +19,7 @@ mod derived_parameters;
 mod exported;
 mod fit;
 mod fmu;
+mod fmu_with_runs;
 mod formulas;
 mod host;
 mod impacts;
@@ -39,6 +41,7 @@ mod runs;
 mod scripts;
 mod signals;
 mod states;
+mod stepped_energies;
 mod stepped_in_space;
 mod stepped_laws;
 #[path = "../support/mod.rs"]

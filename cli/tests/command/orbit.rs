@@ -1072,3 +1072,74 @@ fn a_body_swings_by_four_numbers_as_by_angles() {
         assert!(least <= bound, "{re} + {im}i: {least:e}\n{four:#}{three:#}");
     }
 }
+
+/// A mass on a rail with friction and a spring, driven against a stop, returns after a period of the drive. The product of its multipliers is e² for each impact, times
+/// exp(−d t/m), times a⁺/a⁻ for each reversal of the slip, with the accelerations before and after it at the state that `simulate` prints.
+#[test]
+fn an_orbit_with_a_guide_and_a_stop_shrinks_areas_as_liouville_says() {
+    let text = "machine Rubbed in plane {
+        parameters {
+            m: kg = 1, k: N/m = 4, d: N*s/m = 0.1, F: N = 4, w: rad/s = 2.8, L: m = 0.3, e: 1 = 0.6, mu: 1 = 0.05, g: m/s^2 = 9.81,
+        }
+        coordinates { x: m = 0.5, der(x): m/s = 0.5 }
+        bodies { mass { mass: m, at: (x, 0) } }
+        gravity (0, -g);
+        springs { spring { stiffness: k, stretch: x } }
+        dampers { damper { damping: d, stretch: x } }
+        forces { drive { on: x, value: F*cos(w*t) } }
+        sliding { rail { body: mass, on: ground, direction: (1, 0), friction: mu } }
+        contacts { stop { gap: x + L, restitution: e } }
+    }";
+    let spec = Scratch::new("rubbed.machine", text);
+    let found = orbit(&[spec.path(), "--period", "2*pi/w", "--settle", "60"]);
+    let period = TAU / 2.8;
+    let start = |name: &str, of: &str| format!("{name}={:?}", number(&found["at"][of]["x"]));
+    let (q, v) = (start("x", "q"), start("x", "v"));
+    let until = format!("{:?}", number(&found["period"]));
+    let run = json(&[
+        "simulate",
+        spec.path(),
+        "--until",
+        &until,
+        "--start",
+        &q,
+        "--rate",
+        &v,
+        "--tolerance",
+        "1e-11",
+        "--method",
+        "dop853",
+        "--json",
+    ]);
+    assert!(
+        (number(&run["q"]["x"]) - number(&found["at"]["q"]["x"])).abs() < 1e-8,
+        "{run:#}"
+    );
+    let mut product = (-0.1 * number(&found["period"])).exp();
+    let mut impacts = 0;
+    for event in run["contact_events"].as_array().expect("events") {
+        let (t, x) = (number(&event["t"]), number(&event["q"]["x"]));
+        match (event["contact"].as_str(), event["kind"].as_str()) {
+            (Some("stop"), Some("impact")) => {
+                product *= 0.6 * 0.6;
+                impacts += 1;
+            }
+            (Some("rail"), Some("reverses")) if number(&event["v"]["x"]).abs() < 1e-9 => {
+                let [drive, rubs] = [4.0 * (2.8 * t).cos() - 4.0 * x, 0.05 * 9.81];
+                let direction = number(&event["direction"]);
+                product *= (drive - direction * rubs) / (drive + direction * rubs);
+            }
+            (Some("rail"), Some("reverses")) => {}
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(impacts > 0 && (number(&found["period"]) / period).fract() < 1e-9);
+    let all = multipliers(&found);
+    let [re, im] = all.iter().fold([1.0, 0.0], |[a, b], (re, im, ..)| {
+        [a * re - b * im, a * im + b * re]
+    });
+    assert!(
+        (re - product).abs() < CLOSE && im.abs() < CLOSE,
+        "{re} {im}, not {product}: {found:#}"
+    );
+}

@@ -513,6 +513,32 @@ fn what_is_killed_goes_on_to_the_same_bytes() {
     }
 }
 
+/// A plan may have more runs than will ever be made: the first ones are made as of any other plan, and the same call continues.
+#[test]
+fn a_plan_without_end_is_begun_and_continued() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let out = spec.0.with_file_name("endless.csv");
+    let began = Instant::now();
+    let mut kept = 0;
+    for _ in 0..2 {
+        let call = ["--until", "1e-3", "--vary", "start(x)=0..1:1000000000000"];
+        let settings = ["--limit", "1", "--json", "--threads", "2000"];
+        let said = sweep(spec.path(), &out, &[&call[..], &settings].concat());
+        assert_eq!(said.status, 0, "{}", said.error);
+        let document: Value = serde_json::from_str(&said.out).expect("a document");
+        assert_eq!(document["of"], 1_000_000_000_000_u64, "{document}");
+        let runs = document["runs"].as_u64().expect("a number");
+        assert!(runs > kept, "{runs} after {kept}");
+        kept = runs;
+    }
+    // To look for each of the 15 million chunks would take minutes.
+    assert!(
+        began.elapsed() < Duration::from_secs(60),
+        "{:?}",
+        began.elapsed()
+    );
+}
+
 /// A failure to write is reported, and existing results stay: a limit on the size of files simulates a full disk.
 #[cfg(unix)]
 #[test]

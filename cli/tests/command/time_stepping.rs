@@ -120,7 +120,7 @@ fn between_contacts_its_order_is_2() {
 fn elastic_discs_keep_their_energy_to_rounding() {
     let run = step(
         "machines/contacts/pile.machine",
-        3.0,
+        4.0,
         5e-3,
         &[
             "--const",

@@ -17,25 +17,26 @@
 mod errors;
 mod json;
 mod links;
+mod options;
 mod page;
 mod reader;
 mod reference;
-
-use std::collections::BTreeSet;
-use std::process::Command;
 
 use page::Page;
 use reader::{Reader, Verdict};
 
 /// The pages whose blocks are run.
-const PAGES: [&str; 7] = [
+const PAGES: [&str; 10] = [
     "README.md",
     "docs/tutorial.md",
     "docs/reference.md",
     "docs/spec-language.md",
     "docs/command-line.md",
+    "docs/contacts.md",
+    "docs/errata.md",
     "docs/skipping.md",
     "docs/sweeps.md",
+    "machines/README.md",
 ];
 
 /// Whether the text after a spec says so; a list of errors that links to this one does not.
@@ -105,6 +106,21 @@ fn the_page_of_the_command_line_does_what_it_says() {
 }
 
 #[test]
+fn the_page_of_contacts_does_what_it_says() {
+    follow("docs/contacts.md");
+}
+
+#[test]
+fn the_page_of_errata_does_what_it_says() {
+    follow("docs/errata.md");
+}
+
+#[test]
+fn the_page_of_the_library_does_what_it_says() {
+    follow("machines/README.md");
+}
+
+#[test]
 fn the_page_of_what_is_skipped_does_what_it_says() {
     follow("docs/skipping.md");
 }
@@ -126,44 +142,5 @@ fn every_rust_block_is_a_documentation_test() {
                 "src/lib.rs does not include {path}, so nobody runs its programs"
             );
         }
-    }
-}
-
-/// Commands and options, as listed by the command's own help.
-#[test]
-fn every_option_is_in_the_docs() {
-    let help = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
-        let output = command.args(arguments).arg("--help").output();
-        String::from_utf8(output.expect("the command runs").stdout).expect("text")
-    };
-    let listed = |text: &str, heading: &str| -> Vec<String> {
-        let lines = text.lines().skip_while(|line| *line != heading).skip(1);
-        let items = lines.take_while(|line| !line.is_empty());
-        items.map(|line| line.trim().to_owned()).collect()
-    };
-    let page = Page::open("docs/command-line.md").text;
-    let mut options = BTreeSet::new();
-    for line in listed(&help(&[]), "Commands:") {
-        let command = line.split_whitespace().next().expect("a command");
-        let row = format!("| `lagrangian {command} ");
-        assert!(page.contains(&row), "no row for `lagrangian {command}`");
-        let help = help(&[command]);
-        let words = help.lines().filter_map(|line| {
-            let line = line.trim_start();
-            let line = line.strip_prefix("-h, ").unwrap_or(line);
-            line.strip_prefix("--")?.split([' ', '.', ',']).next()
-        });
-        options.extend(words.map(|word| format!("--{word}")));
-    }
-    options.remove("--help");
-    assert!(options.len() > 8, "{options:?}");
-    for option in options {
-        assert!(
-            page.contains(&format!("`{option}"))
-                || page.contains(&format!("[{option}"))
-                || page.contains(&format!("{option} ")),
-            "docs/command-line.md does not tell of {option}"
-        );
     }
 }

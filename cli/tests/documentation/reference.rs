@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use lagrangian_spec::diagnostic::Code;
 use lagrangian_spec::syntax::SectionKind;
+use lagrangian_spec::unit::Measure;
 
 use crate::page::Page;
 
@@ -124,5 +125,27 @@ fn every_error_is_in_the_entry_of_a_section_or_of_the_rules() {
     for word in words {
         let known = Code::ALL.iter().any(|code| code.as_str() == word);
         assert!(known, "there is no error {word}");
+    }
+}
+
+#[test]
+fn every_unit_is_in_the_reference() {
+    let page = Page::open(REFERENCE);
+    let entry = page.entry("### Units").expect("an entry of units");
+    let code = entry.split('`').skip(1).step_by(2);
+    let words: Vec<&str> = code.flat_map(str::split_whitespace).collect();
+    for unit in Measure::names() {
+        assert!(words.contains(&unit), "{REFERENCE} has no unit {unit}");
+    }
+}
+
+#[test]
+fn every_section_is_in_the_grammar() {
+    let grammar = Page::open("model-spec/src/syntax.rs").text;
+    let lines = grammar.lines().filter(|line| line.starts_with("//!"));
+    let grammar: String = lines.collect();
+    for section in SectionKind::ALL {
+        let word = format!("\"{section}\"");
+        assert!(grammar.contains(&word), "the grammar has no section {word}");
     }
 }

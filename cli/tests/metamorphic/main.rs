@@ -8,6 +8,10 @@
     clippy::type_complexity,
     reason = "sums over i and j read like the formulas"
 )]
+#![allow(
+    clippy::too_many_lines,
+    reason = "what is drawn, written or evaluated for each kind stands in one place"
+)]
 
 #[path = "../../../jit/tests/agreement/check.rs"]
 mod check;

@@ -18,6 +18,7 @@ pub fn lagrangian(arguments: &[&str]) -> Output {
     command
         .current_dir(root())
         .args(arguments)
+        .env("LAGRANGIAN_CACHE", env!("CARGO_TARGET_TMPDIR"))
         .stdin(Stdio::null());
     command.output().expect("the command runs")
 }

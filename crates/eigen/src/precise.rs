@@ -2,7 +2,7 @@
 //!
 //! In a heavily damped machine the slowest motion is slower than the fastest by c²/k, and in `f64` an eigenvalue has an error
 //! of some units in the last place of the largest one. With 32 digits c²/k may be 1e20 and every eigenvalue is still as
-//! accurate as the matrix. How far the matrix itself determines an eigenvalue is what [`Pair::error`] tells.
+//! accurate as the matrix. [`Pair::error`] bounds how far the matrix itself determines an eigenvalue.
 
 use core::ops::{Add, Mul, Sub};
 

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::layout::{Writer, width};
-use super::names::Scope;
+use super::names::{Scope, word};
 use lagrangian_program as program;
 use lagrangian_program::{
     Contracted, Contraction, Contractions, EliminationStep, Function, Guard, Op, Pack,
@@ -56,11 +56,7 @@ pub trait Language {
     fn identifier(&self, scope: &mut Scope, name: &str) -> String;
     /// The name of an angle within the names of its sine and cosine: `theta1`, also for `n(q[0])`.
     fn angle_name(&self, angle: &str) -> String {
-        let plain = angle.trim_start_matches("r#");
-        plain
-            .chars()
-            .map(|c| if c.is_alphanumeric() { c } else { '_' })
-            .collect()
+        word(angle.trim_start_matches("r#"), char::is_alphanumeric)
     }
     /// The name for a bound constant that has one, such as `zero`.
     fn constant_name(&self, value: &Rational) -> Option<&'static str>;

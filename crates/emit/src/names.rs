@@ -53,6 +53,14 @@ pub fn flat(name: &Name) -> String {
     }
 }
 
+/// A text with `_` in place of what names may not contain.
+pub fn word(text: &str, may_contain: impl Fn(char) -> bool) -> String {
+    let letters = text.chars();
+    letters
+        .map(|c| if may_contain(c) { c } else { '_' })
+        .collect()
+}
+
 /// A name in ASCII letters, which every compiler accepts.
 pub fn ascii(name: &str) -> String {
     name.chars()

@@ -108,6 +108,36 @@ pub fn module(program: &Proved, options: &Options) -> String {
     Emitter::new(program, options).module(ChartOf::of(options).as_ref())
 }
 
+/// Names of a [`module`] for code that is the same for every machine.
+pub struct ModuleNames {
+    /// The type of the machine, generic over its number.
+    pub machine: String,
+    /// The machine as an expression in the module, made from an array `p` of its parameters in the order of the description.
+    pub of_parameters: String,
+    /// The inputs in the same way, from an array `u`.
+    pub of_inputs: String,
+}
+
+/// The names of the module of a machine.
+pub fn names_of_module(program: &Program) -> ModuleNames {
+    let types = Types::new(&program.name);
+    let literal = |slots, name: &str, array: &str| {
+        let mut writer = Writer::default();
+        let values = Group::new(slots).literal(name, |slot| format!("{array}[{slot}]"));
+        writer.expression("", &values, "");
+        writer.finish()
+    };
+    ModuleNames {
+        of_parameters: literal(&program.parameters, &types.machine, "p"),
+        of_inputs: if program.inputs.is_empty() {
+            format!("{}::default()", types.inputs)
+        } else {
+            literal(&program.inputs, &types.inputs, "u")
+        },
+        machine: types.machine,
+    }
+}
+
 /// The content of a module for a library that is called from C: the accelerations and what they need. For a machine with unilateral
 /// contacts it also has what a simulator needs to find out which of them press: see [`CONTACT_ROLES`].
 ///

@@ -259,8 +259,8 @@ fn begin(
         .map(|(x, [low, high])| x.max(*low).min(*high))
         .collect();
     let residuals = problem.residuals(&x)?;
-    if residuals.iter().any(|r| !r.is_finite()) {
-        return Err(Trouble::NoValue("a residual is not finite".into()));
+    if let Some(why) = has_no_sum(&residuals) {
+        return Err(Trouble::NoValue(why.into()));
     }
     let jacobian = problem.jacobian(&x)?;
     Ok(Minimum {
@@ -275,11 +275,25 @@ fn begin(
     })
 }
 
-/// The residuals of a trial, if all of them are numbers.
+/// The residuals of a trial, if the sum of their squares is a number.
 fn tried(problem: &mut dyn Problem, trial: &[f64]) -> Result<Option<Vec<f64>>, Trouble> {
     match problem.residuals(trial) {
         Err(Trouble::NoValue(_)) => Ok(None),
-        tried => Ok(Some(tried?).filter(|all| all.iter().all(|r| r.is_finite()))),
+        tried => Ok(Some(tried?).filter(|all| squares(all).is_finite())),
+    }
+}
+
+/// Why the sum of the squares of these residuals is no measure of them, if it is none.
+fn has_no_sum(residuals: &[f64]) -> Option<&'static str> {
+    let sum = squares(residuals);
+    if residuals.iter().any(|r| !r.is_finite()) {
+        Some("a residual is not finite")
+    } else if !sum.is_finite() {
+        Some("the residuals are so large that their squares are beyond all numbers")
+    } else if sum == 0.0 && residuals.iter().any(|r| *r != 0.0) {
+        Some("the residuals are so small that their squares vanish")
+    } else {
+        None
     }
 }
 

@@ -203,8 +203,7 @@ impl Fit<'_> {
             if driven.any(|(_, signal)| matches!(signal, Signal::Function(_))) {
                 return Some("an input is a function that does not give its derivatives");
             }
-            (!program.contacts.is_empty() || program.sizes().guides > 0)
-                .then_some("the machine has sliding friction")
+            (!program.contacts.is_empty()).then_some("the machine has sliding friction")
         });
         match why.map(str::to_owned).or_else(|| self.held.why.clone()) {
             None => (Derivatives::Integrated, None),

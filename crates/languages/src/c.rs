@@ -630,24 +630,11 @@ fn number(x: f64) -> Expression {
 fn function_name(function: symbolic::Function) -> &'static str {
     use symbolic::Function::*;
     match function {
-        Sin => "sin",
-        Cos => "cos",
-        Tan => "tan",
-        Asin => "asin",
-        Acos => "acos",
-        Atan => "atan",
-        Atan2 => "atan2",
-        Sinh => "sinh",
-        Cosh => "cosh",
-        Tanh => "tanh",
-        Exp => "exp",
         Ln => "log",
-        Sqrt => "sqrt",
         Abs => "fabs",
-        Sign => "sign",
         Min => "fmin",
         Max => "fmax",
-        Pow => "pow",
+        other => other.name(),
     }
 }
 

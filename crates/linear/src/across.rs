@@ -198,15 +198,6 @@ pub fn run<'m>(wanted: &Wanted<'m>, start: &State<Vec<f64>>) -> Result<Across<'m
             why: "is between two polygons, for which there are no derivatives where a corner reaches the end of a face",
         });
     }
-    let contacts = system.unilateral_contacts();
-    let guides = contacts.len() - system.guides();
-    if let Some(guide) = system.unilateral_contacts().nth(guides) {
-        return Err(NoDerivatives::Broken {
-            t: start.t,
-            contact: guide.name.to_owned(),
-            why: "is a guide beside contacts, for which there are no derivatives",
-        });
-    }
     let n = system.coordinates().len();
     let mut own = machine.start();
     own.t = start.t;
@@ -305,6 +296,7 @@ impl<'m> Passing<'_, 'm> {
             let ends = all.get(index + 1).map_or(base.end().t, |next| next.since);
             let mut after = Phase {
                 modes: event.modes.to_vec(),
+                sides: self.sides(base, [event.since, ends])?,
                 ..phase.clone()
             };
             for (layer, is_loaded) in after.layers.iter_mut().zip(&event.loaded) {
@@ -355,6 +347,22 @@ impl<'m> Passing<'_, 'm> {
             end: state,
             changes,
         })
+    }
+
+    /// The signs of the reactions of the guides between two changes.
+    fn sides(
+        &self,
+        base: &Solution<InterpretedMachine, Signals>,
+        [since, ends]: [f64; 2],
+    ) -> Result<Vec<f64>, NoDerivatives> {
+        let guides = base.system().guides();
+        if guides == 0 {
+            return Ok(Vec::new());
+        }
+        let middle = since + 0.5 * (ends - since);
+        let seen = base.observe(middle).map_err(NoDerivatives::Run)?;
+        let of_guides = &seen.unilateral[seen.unilateral.len() - guides..];
+        Ok(of_guides.iter().map(|of| of.normal.signum()).collect())
     }
 
     /// Integrates from a state until contacts change.

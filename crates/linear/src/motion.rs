@@ -8,8 +8,8 @@
 //! δż_F = ∂v_F/∂z δz + T_F δs                                                        (E40)
 //! ```
 //!
-//! Coordinates that only record how far the machine has moved, such as the place on a table around which a coin circles,
-//! are an exception: their coefficients turn with the motion. Nothing depends on them, and they are left out.
+//! Coordinates that only record how far the machine has moved, such as the position on a table around which a coin circles,
+//! are an exception: their coefficients rotate with the motion. Nothing depends on them, and they are left out.
 
 use lagrangian_eigen::spectrum::{self, Linear, Mode, Modes};
 use nalgebra::{Complex, DMatrix};

@@ -340,7 +340,7 @@ struct Search<'a> {
 /// Why no orbit was found.
 pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOrbit> {
     let system = machine.prepare();
-    if system.contacts().len() + system.guides() > 0 {
+    if system.contacts().len() > 0 {
         return Err(NoOrbit::Refused(
             "the machine has friction that sticks, which has no variational equations".into(),
         ));

@@ -20,7 +20,7 @@ use lagrangian::{
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
 
-pub(crate) use contacts::{DualState, Sought, add};
+pub(crate) use contacts::{Acts, DualState, Sought, SoughtReaction};
 pub use contacts::{Layer, Phase};
 
 /// A direction of differentiation: the change of each parameter, and of each input that nothing drives.
@@ -197,19 +197,14 @@ impl VariedSystem {
             let (q, v) = (self.part(q, k), self.part(v, k));
             for (input, output) in &self.formulas {
                 let u = duals(&inputs.own.values, &inputs.by[k]);
-                let mut value = [Dual::constant(0.0)];
-                let arguments = Arguments {
+                let at = Arguments {
                     t: Dual::constant(t),
                     q: &q,
                     v: &v,
                     u: &u,
                     a: &[],
                 };
-                let called = interpreter.call(Role::Output(*output), arguments, &mut value);
-                inputs.by[k][*input] = match called {
-                    Ok(()) => value[0].derivative,
-                    Err(_) => f64::NAN,
-                };
+                inputs.by[k][*input] = derivative_of_output(interpreter, *output, at);
             }
         }
     }
@@ -226,20 +221,29 @@ impl VariedSystem {
         let one = |(k, interpreter): (usize, &mut Interpreter<Dual<f64>>)| {
             let (q, v, a) = (self.part(q, k), self.part(v, k), self.part(a, k));
             let u = duals(&u.own.values, &u.by[k]);
-            let mut value = [Dual::constant(0.0)];
-            let arguments = Arguments {
+            let at = Arguments {
                 t: Dual::constant(t),
                 q: &q,
                 v: &v,
                 u: &u,
                 a: &a,
             };
-            match interpreter.call(Role::Output(output), arguments, &mut value) {
-                Ok(()) => value[0].derivative,
-                Err(_) => f64::NAN,
-            }
+            derivative_of_output(interpreter, output, at)
         };
         interpreters.iter_mut().enumerate().map(one).collect()
+    }
+}
+
+/// The derivative of an output, NaN where it has no value.
+fn derivative_of_output(
+    interpreter: &mut Interpreter<Dual<f64>>,
+    output: usize,
+    at: Arguments<'_, Dual<f64>>,
+) -> f64 {
+    let mut value = [Dual::constant(0.0)];
+    match interpreter.call(Role::Output(output), at, &mut value) {
+        Ok(()) => value[0].derivative,
+        Err(_) => f64::NAN,
     }
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::Equations;
 use crate::Proved;
+use crate::equations::reduction::violated_assumption;
 use crate::equations::refusal::refuse_large;
 use crate::formulas;
 use crate::lower::lower_by;
@@ -46,7 +47,8 @@ impl<'d> Compiled<'d> {
         let program = match Proved::new(program, &model, &equations) {
             Ok(program) => program,
             Err(unproved) => {
-                report.push(unproved.diagnostic(&model));
+                let stateless = violated_assumption(&model, &equations.constraints);
+                report.push(stateless.unwrap_or_else(|| unproved.diagnostic(&model)));
                 return None;
             }
         };

@@ -34,7 +34,7 @@ pub(crate) mod literal;
 
 mod power;
 mod projected;
-mod reduction;
+pub(crate) mod reduction;
 pub(crate) mod refusal;
 pub(crate) mod shorter;
 mod sliding;
@@ -47,7 +47,6 @@ pub use brachistochrone::{Brachistochronic, SlidingGuide, UnmetCondition};
 pub use carrying::Carrying;
 pub use constraints::{ConstraintEquation, constraints};
 pub use freedom::{Freedom, Independent, contradictions, freedom};
-pub use guided::GuideEquation;
 pub use kinematics::angular_velocities;
 pub use lagrange::{Oracle, OracleConstraint, OracleReaction, OracleSliding};
 pub use reduction::{Dependent, ReducedModel, Reduction, dependents};
@@ -99,8 +98,8 @@ pub struct Equations<'d> {
     pub sliding: Vec<SlidingEquation<'d>>,
     /// The unilateral contacts, which are contained in nothing else here. Behind these stand the guides, if there are both; then `sliding` is empty.
     pub unilateral: Vec<UnilateralEquation<'d>>,
-    /// The normal reactions of the guides among the unilateral contacts.
-    pub guides: Vec<GuideEquation<'d>>,
+    /// The normal reactions of the guides among the unilateral contacts, over the forces of all contacts, the friction of guides among them.
+    pub guides: Vec<Reaction<'d>>,
     /// This machine without the coordinates that constraints determine, if there are any.
     pub reduction: Option<Box<Reduction<'d>>>,
     /// The residual of the equations of motion at given accelerations, `f − M a`, eq. (E25); with

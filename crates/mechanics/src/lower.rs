@@ -23,7 +23,7 @@ use accelerations::{is_mostly_formulas, ways_to_accelerations};
 use choosing::{Draft, PlannedFunction};
 use chosen::ChosenFunctions;
 use lagrangian_program::EliminationStep;
-use lagrangian_program::choose::{Basis, Candidate, Choice, best};
+use lagrangian_program::choose::{Basis, Candidate, Choice, Form, best};
 use lagrangian_program::graph::{Graph, Id, Scaled};
 use lagrangian_program::quantity::Sizes;
 use lagrangian_program::schedule::prepared;
@@ -288,6 +288,18 @@ impl<'a, 'd> LoweringInput<'a, 'd> {
             reduction: None,
         }
     }
+
+    /// The quantities of the equations in all coordinates, multiplied out if the accelerations follow from those.
+    fn in_all_coordinates(self, accelerations: &Draft) -> (Basis, &'a [Quantity<'d>]) {
+        match accelerations.form {
+            Form {
+                basis: Basis::Expanded,
+                reduced: false,
+                ..
+            } => (Basis::Expanded, self.expanded),
+            _ => (Basis::Derived, self.quantities),
+        }
+    }
 }
 
 /// The quantities of a machine, in the order of [`Role`]; accelerations follow from them.
@@ -348,9 +360,11 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         Role::ContactBias => directions.map(|d| d.bias).collect(),
         Role::ContactCoefficients => unilateral.iter().flat_map(|u| u.coefficients).collect(),
         Role::GuideMatrix => (equations.guides.iter())
-            .flat_map(|guide| guide.coefficients())
+            .flat_map(|reaction| reaction.coefficients())
             .collect(),
-        Role::GuideLoads => equations.guides.iter().map(|guide| guide.load).collect(),
+        Role::GuideLoads => (equations.guides.iter())
+            .map(|reaction| reaction.load)
+            .collect(),
         Role::Output(index) => vec![equations.outputs[index]],
         Role::Assumption(index) => vec![model.assumptions[index].excess],
         // These are found by elimination, or are not expressions of the equations.

@@ -1,5 +1,5 @@
-//! The parts of a function for speed that are the same for every function: its call as a value, the [`Kernel`](crate::scalar::Kernel)
-//! that this is, and the public function that chooses the arithmetic.
+//! The parts of a fast function that do not depend on what it computes: its call as a value, the implementation of
+//! [`Kernel`](crate::scalar::Kernel) for this value, and the public function that chooses the arithmetic.
 //!
 //! ```text
 //! fast_function! {

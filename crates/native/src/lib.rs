@@ -53,6 +53,8 @@ mod vector;
 ))]
 mod x86;
 
+#[doc(hidden)]
+pub mod files;
 #[cfg(all(
     test,
     target_arch = "x86_64",

@@ -1,6 +1,7 @@
 //! Every register type gives the same bits, lanes do not influence each other, and the polynomials are as
 //! accurate as claimed.
 
+use std::vec;
 use std::vec::Vec;
 
 use lagrangian_scalar::{DoubleDouble, Kernel, Scalar, series};
@@ -678,6 +679,10 @@ impl<const K: usize> Kernel<f64> for Solution<'_, K> {
     }
 }
 
+#[expect(
+    clippy::needless_range_loop,
+    reason = "both triangles are written by their indices"
+)]
 fn solutions_agree<const K: usize>(random: &mut Random) {
     // Dominated by its diagonal, so that it is well conditioned.
     let mut matrix = [[0.0; K]; K];
@@ -712,5 +717,78 @@ fn solutions_in_registers_have_the_bits_of_those_in_memory() {
         solutions_agree::<7>(&mut random);
         solutions_agree::<12>(&mut random);
         solutions_agree::<24>(&mut random);
+    }
+}
+
+/// Factors a matrix of `K` rows, of which those from `held` on are constraints. Returns the inverse, or the row whose pivot vanishes.
+struct Factor<T, const K: usize> {
+    matrix: Vec<T>,
+    held: usize,
+}
+
+impl<T: Copy, const K: usize> Kernel<T> for Factor<T, K> {
+    type Output = Result<Vec<T>, usize>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(mut self) -> Self::Output {
+        match series::factor::<N>(K, self.held, &mut self.matrix) {
+            Ok(()) => Ok(self.matrix),
+            Err(vanished) => Err(vanished.row),
+        }
+    }
+}
+
+fn inverses_agree<const K: usize>(random: &mut Random, held: usize, vanishing: Option<usize>) {
+    let mut matrix = vec![0.0; K * K];
+    for i in 0..K {
+        for j in 0..i {
+            // Constraints meet each other in no element, and some elements vanish.
+            let is_zero = j >= held || random.bits().is_multiple_of(4);
+            matrix[i * K + j] = if is_zero { 0.0 } else { random.uniform() - 0.5 };
+        }
+        matrix[i * K + i] = if i < held {
+            K as f64 + random.uniform()
+        } else {
+            0.0
+        };
+    }
+    if let Some(row) = vanishing {
+        matrix[row * K..][..row].fill(0.0);
+        matrix[row * K + row] = 0.0;
+    }
+    let in_lanes = matrix.iter().map(|x| Lanes::<4>::splat(*x)).collect();
+    let alone = f64::run(Factor::<f64, K> { matrix, held });
+    let in_lanes = Lanes::<4>::run(Factor::<Lanes<4>, K> {
+        matrix: in_lanes,
+        held,
+    });
+    match (alone, in_lanes) {
+        (Ok(alone), Ok(in_lanes)) => {
+            assert_eq!(vanishing, None);
+            for (one, all) in alone.into_iter().zip(in_lanes) {
+                assert!(
+                    all.0.iter().all(|x| x.to_bits() == one.to_bits()),
+                    "{K}: {one}"
+                );
+            }
+        }
+        (alone, in_lanes) => assert_eq!([alone.err(), in_lanes.err()], [vanishing; 2], "{K}"),
+    }
+}
+
+/// Rows in registers are those of the loop over elements, which lanes go through.
+#[test]
+fn inverses_in_registers_have_the_bits_of_those_in_lanes() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    for _ in 0..20 {
+        inverses_agree::<5>(&mut random, 5, None);
+        inverses_agree::<9>(&mut random, 9, None);
+        inverses_agree::<12>(&mut random, 8, None);
+        inverses_agree::<13>(&mut random, 7, None);
+        inverses_agree::<13>(&mut random, 7, Some(3));
+        inverses_agree::<13>(&mut random, 7, Some(10));
+        inverses_agree::<16>(&mut random, 16, None);
+        inverses_agree::<19>(&mut random, 15, None);
+        inverses_agree::<24>(&mut random, 24, None);
     }
 }

@@ -3,8 +3,8 @@
 //! No form of the equations is best for every machine: multiplied out they are cheapest for a
 //! double pendulum, but never for a long chain; elimination along the machine is best with free
 //! bodies or long chains, the mass matrix for small, tightly coupled machines. So each function is
-//! made in every form that may be the best, and among those that are accurate enough the one of the
-//! least [cost](Cost) is taken. All candidates are recorded with their costs and roundings.
+//! made in every form that may be the best, and among those that are accurate enough the one with the
+//! lowest [cost](Cost) is chosen. All candidates are recorded with their costs and roundings.
 //!
 //! Accurate enough means a loss of at most one bit: a candidate whose [rounding](Rounding) is at
 //! most [`MOST_ROUNDING`] times that of the most accurate one.

@@ -43,7 +43,7 @@ pub fn mutants(program: &Program, stride: usize) -> impl Iterator<Item = Mutant>
         })
 }
 
-/// For each value whether it is 0 in exact arithmetic, which then sees no mistake in its use.
+/// For each value whether it is 0 in exact arithmetic, in which a mistake in its use therefore has no effect.
 fn vanishing(function: &Function) -> Vec<bool> {
     let mut vanishes: Vec<bool> = Vec::with_capacity(function.code.len());
     for op in &function.code {

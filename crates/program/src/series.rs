@@ -21,12 +21,13 @@ mod expand;
 mod gradients;
 mod recurrence;
 mod rows;
+mod work;
 
 use std::fmt;
 
 use lagrangian_symbolic::{Function as Call, Rational};
 
-use crate::Cost;
+use crate::{Cost, Program, Role};
 
 pub use composition::{ChainStep, Composition, Source};
 pub use expand::Expander;
@@ -217,40 +218,84 @@ impl Series {
         varying.map(|(row, _)| of_row(row)).sum()
     }
 
-    /// The cost of a step by this series, in evaluations of the accelerations in a step of `dop853`, with 12 and with 20 coefficients of
-    /// the accelerations, if the accelerations have this cost.
+    /// The cost of a step by this series, with 12 and with 20 coefficients of the accelerations, in twelfths of a step of `dop853`, which has twelve
+    /// evaluations of the accelerations. `None` if the program has no accelerations.
     ///
-    /// An evaluation comes with the sums of a stage of the method, 8 cycles for each coordinate. With 12 coefficients the cost is two
-    /// thirds. Measured costs (`docs/benchmarks.md`, the method that a run chooses) are within a factor of 2.
-    pub fn cost(&self, accelerations: Cost) -> [f64; 2] {
-        let fine = self.cycles() / self.evaluation(accelerations);
-        [2.0 / 3.0 * fine, fine]
+    /// Both are estimated from counts of operations, with the projection onto constraints and all else that happens once in a step. Measured
+    /// costs are in `docs/benchmarks.md`, with the method that a run chooses.
+    pub fn cost(&self, program: &Program) -> Option<[f64; 2]> {
+        let expansion = self.expansion();
+        let of_order = |order: usize| {
+            let of_step = expansion.cycles(order) + self.rest_of_step(program, order);
+            Some(of_step / self.evaluation(program, order)?)
+        };
+        let [coarse, fine] = ORDERS.map(of_order);
+        Some([coarse?, fine?])
     }
 
     /// What the powers of an energy balance add, in the same unit: to an evaluation, in which they are computed once, and to a step by this series with 12 and with
-    /// 20 coefficients, within which they are integrated by a quadrature; `powers` are the costs of their functions.
+    /// 20 coefficients, within which they are integrated by a quadrature.
     ///
     /// At each of its nodes the quadrature also needs the state and the accelerations there.
-    pub fn cost_of_powers(
-        &self,
-        accelerations: Cost,
-        powers: impl IntoIterator<Item = Cost>,
-    ) -> [f64; 3] {
-        let powers = powers.into_iter().map(|of| of.single_call() as f64 / 10.0);
-        let powers: f64 = powers.sum();
-        let evaluation = self.evaluation(accelerations);
-        let of_step = |coefficients: f64| {
-            let state = CYCLES_OF_TERM * coefficients * self.coordinates as f64;
-            NODES * (powers + state) / evaluation
+    pub fn cost_of_powers(&self, program: &Program) -> Option<[f64; 3]> {
+        let powers = program.costs_of_powers().map(cycles_alone);
+        let powers = CYCLES_OF_CALL + powers.sum::<f64>();
+        let of_step = |order: usize| {
+            let state = CYCLES_OF_TERM * order as f64 * self.coordinates as f64;
+            let of_nodes = NODES * (CYCLES_OF_NODE + state + powers);
+            Some(of_nodes / self.evaluation(program, order)?)
         };
-        [powers / evaluation, of_step(12.0), of_step(20.0)]
+        let [coarse, fine] = ORDERS.map(of_step);
+        Some([
+            powers / self.evaluation(program, ORDERS[1])?,
+            coarse?,
+            fine?,
+        ])
     }
 
-    /// The time of an evaluation in a step of `dop853`, in processor cycles.
-    fn evaluation(&self, accelerations: Cost) -> f64 {
-        accelerations.single_call() as f64 / 10.0 + CYCLES_OF_STAGE * self.coordinates as f64
+    /// The time of a step by this series besides its expansion to so many coefficients of the accelerations, in processor cycles.
+    fn rest_of_step(&self, program: &Program, order: usize) -> f64 {
+        let n = self.coordinates as f64;
+        let end = CYCLES_OF_TERM * n * (order + 2) as f64;
+        end + CYCLES_OF_END * n + CYCLES_OF_STEP + projection(program, order)
+    }
+
+    /// The time of a twelfth of a step of `dop853`, in processor cycles, at the tolerances at which series have so many coefficients.
+    fn evaluation(&self, program: &Program, order: usize) -> Option<f64> {
+        let accelerations = program.function(Role::Accelerations)?.cost();
+        let n = self.coordinates as f64;
+        let of_stage = CYCLES_OF_STAGE + CYCLES_OF_STAGE_SUMS * n;
+        Some(cycles_alone(accelerations) + of_stage + projection(program, order) / STAGES)
     }
 }
+
+/// The time of a single call, in processor cycles.
+fn cycles_alone(cost: Cost) -> f64 {
+    cost.single_call() as f64 / 10.0
+}
+
+/// The time of the projection of the end of a step, in processor cycles: calls of its function, and the comparison of residuals with the terms of their rows.
+fn projection(program: &Program, order: usize) -> f64 {
+    let m = program.constraints.len();
+    if m == 0 {
+        return 0.0;
+    }
+    let function = program.function(Role::Projection);
+    // Without one, the same elimination is done by loops.
+    let function = function.or_else(|| program.function(Role::Accelerations));
+    let once = function.map_or(0.0, |function| cycles_alone(function.cost()));
+    // One at the end, and one after each correction of the coordinates, which leaves about the square of their error.
+    let calls = if order == ORDERS[0] { 3.0 } else { 2.0 };
+    let elements = (m * program.dimension()) as f64;
+    let residuals = CYCLES_OF_ELEMENT * elements + CYCLES_OF_ROW * m as f64;
+    calls * once + residuals + CYCLES_OF_PROJECTION
+}
+
+/// The numbers of coefficients of the accelerations for which costs are estimated.
+const ORDERS: [usize; 2] = [12, 20];
+
+/// The number of evaluations in a step of `dop853`.
+const STAGES: f64 = 12.0;
 
 /// The time of a multiplication, in processor cycles.
 const CYCLES_OF_MULTIPLICATION: f64 = 0.4;
@@ -264,11 +309,28 @@ const CYCLES_OF_GRADIENT: f64 = 5.0;
 /// The number of evaluations of powers in a step by series: the nodes of the quadrature but the first, and the end.
 const NODES: f64 = 15.0;
 
+/// The time of a node besides: its powers wait for its state, and that for its sums. And the time to call the functions of powers.
+const CYCLES_OF_NODE: f64 = 100.0;
+const CYCLES_OF_CALL: f64 = 45.0;
+
 /// The time that a term of a coordinate takes for the sums of its value, its rate and its acceleration: six instructions for four coordinates.
 const CYCLES_OF_TERM: f64 = 0.75;
 
-/// The time of the sums of a stage for each coordinate.
-const CYCLES_OF_STAGE: f64 = 8.0;
+/// The time of a step by series for each coordinate besides these sums, and what it takes besides: its length from the last coefficients, the end
+/// as a compensated sum, and the comparison of the accelerations there. Most of it waits for what was just computed.
+const CYCLES_OF_END: f64 = 20.0;
+const CYCLES_OF_STEP: f64 = 400.0;
+
+/// The time of a stage of `dop853`, with a twelfth of what happens once in a step: the sums of a stage wait for the accelerations of the one before, and these
+/// for the sums. And the time of its sums for each coordinate.
+const CYCLES_OF_STAGE: f64 = 130.0;
+const CYCLES_OF_STAGE_SUMS: f64 = 12.0;
+
+/// The time of the projection of a step besides the calls of its function, for each element of the matrix of the constraints, for each row, and
+/// altogether: residuals are compared with the terms of their rows before and after.
+const CYCLES_OF_ELEMENT: f64 = 10.0;
+const CYCLES_OF_ROW: f64 = 100.0;
+const CYCLES_OF_PROJECTION: f64 = 100.0;
 
 /// Why the motion of a machine has no Taylor series here.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Settles signs: where `x` and `−x` are both computed or prepared, one of them goes if its users can take the sign.
+//! Removes opposites: where `x` and `−x` are both computed or prepared, one of them is removed if its users can absorb the sign.
 //!
 //! A sign passes through products and quotients, and vanishes in sums: `a + b` with `−b` at hand is `a − (−b)`, and `a − b` is
 //! `−(b − a)`. So a value is replaced by its opposite, and the sign is passed from user to user until sums have absorbed all of

@@ -11,6 +11,8 @@ pub mod double_double;
 pub mod dual;
 mod exact;
 #[doc(hidden)]
+pub mod files;
+#[doc(hidden)]
 pub mod friction;
 pub mod interval;
 pub mod jet;

@@ -71,40 +71,20 @@
 //! ratio 1/10 has 1); a positive constant other than a power of 2 moved out of a root or an
 //! absolute value, as in √(9x) = 3√x; functional equations of exp, ln and powers.
 
+mod arithmetic;
+mod circle;
 mod field;
 mod ratio;
 mod two_adic;
 
-use core::ops::{Add, Div, Mul, Neg, Sub};
-
 use crate::Scalar;
+use circle::{CIRCLE_BITS, GENERATOR, circle_logarithm, root_of_unity, simple_turn};
 use field::{Field, P};
 use ratio::Ratio;
 use two_adic::TwoAdic;
 
 /// The number of halvings of an angle beyond which its sine becomes opaque: e^{ix} = g^(2^HALVINGS x).
 const HALVINGS: i32 = 20;
-
-/// log₂ of the order of the circle group.
-const CIRCLE_BITS: u32 = 61;
-
-/// A logarithm on the circle that this power of 2 divides is taken for a fraction of π, whose denominator is then at most 2¹².
-const SIMPLE_TURN_BITS: u32 = 48;
-
-/// ((4 + i)/(4 − i))⁷: a point of order 2⁶¹, chosen among its odd powers such that g^(2⁵⁹) = i, the
-/// right angle, and g^(2⁵⁸) = (1 + i)/√2.
-const GENERATOR: Field = Field {
-    re: 508_119_004_661_630_789,
-    im: 1_119_946_030_696_053_400,
-};
-
-/// An element of GF(p) of order (p − 1)/2 = 3²·5²·7·11·13·31·41·61·151·331·1321, 109², chosen
-/// such that the third root of unity made from it is (−1 + i√3)/2 and the fifth has the real part
-/// (√5 − 1)/4.
-const ODD_ROOT: Field = Field::real(11_881);
-
-/// The order of [`ODD_ROOT`].
-const ODD_ORDER: i64 = (P / 2) as i64;
 
 /// A number represented by its images in GF(p²), p = 2⁶¹ − 1, and among the 2-adic numbers; see the
 /// [module](crate::residue) for its use.
@@ -563,196 +543,6 @@ impl PartialEq for Residue {
     fn eq(&self, other: &Self) -> bool {
         self.defined && other.defined && self.field == other.field
     }
-}
-
-// The operands are large: functions that read them in place save copies.
-
-impl Add for Residue {
-    type Output = Residue;
-    #[inline]
-    fn add(self, other: Residue) -> Residue {
-        sum(&self, &other)
-    }
-}
-
-impl Neg for Residue {
-    type Output = Residue;
-    fn neg(self) -> Residue {
-        let ratio = self.ratio.negative();
-        Residue {
-            field: -self.field,
-            two_adic: -self.two_adic,
-            // Losing track of π costs recognition, never correctness.
-            ratio: ratio.unwrap_or(Ratio::ZERO),
-            is_rational: self.is_rational && ratio.is_some(),
-            ..self
-        }
-    }
-}
-
-impl Sub for Residue {
-    type Output = Residue;
-    #[inline]
-    fn sub(self, other: Residue) -> Residue {
-        sum(&self, &-other)
-    }
-}
-
-impl Mul for Residue {
-    type Output = Residue;
-    #[inline]
-    fn mul(self, other: Residue) -> Residue {
-        product(&self, &other)
-    }
-}
-
-impl Div for Residue {
-    type Output = Residue;
-    fn div(self, other: Residue) -> Residue {
-        if !self.defined || !other.defined {
-            return Residue::UNDEFINED;
-        }
-        let Some(inverse) = other.field.inverse() else {
-            return Residue::UNDEFINED;
-        };
-        let ratio = other.rational().and_then(Ratio::inverse);
-        let inverse = Residue {
-            field: inverse,
-            two_adic: TwoAdic::ONE / other.two_adic,
-            ratio: ratio.unwrap_or(Ratio::ZERO),
-            is_rational: ratio.is_some(),
-            ..other
-        };
-        product(&self, &inverse)
-    }
-}
-
-fn sum(a: &Residue, b: &Residue) -> Residue {
-    if !a.defined || !b.defined {
-        return Residue::UNDEFINED;
-    }
-    let constant = a.constant && b.constant;
-    // Most derivatives that dual numbers add are 0.
-    if a.is_exactly(0) {
-        return Residue { constant, ..*b };
-    }
-    if b.is_exactly(0) {
-        return Residue { constant, ..*a };
-    }
-    let is_rational = a.is_rational && b.is_rational;
-    let ratio = if is_rational {
-        a.ratio.plus(b.ratio)
-    } else {
-        let (a, b) = (a.turn(), b.turn());
-        match (a.is_zero(), b.is_zero()) {
-            (true, true) => Some(Ratio::ZERO),
-            _ => a.plus(b),
-        }
-    };
-    Residue {
-        field: a.field + b.field,
-        two_adic: a.two_adic + b.two_adic,
-        ratio: ratio.unwrap_or(Ratio::ZERO),
-        is_rational: is_rational && ratio.is_some(),
-        constant,
-        defined: true,
-    }
-}
-
-fn product(a: &Residue, b: &Residue) -> Residue {
-    if !a.defined || !b.defined {
-        return Residue::UNDEFINED;
-    }
-    // Most derivatives that dual numbers multiply are 0, many others 1. 0 times a symbol is 0 for every choice of it.
-    for (a, b) in [(a, b), (b, a)] {
-        if a.is_exactly(0) {
-            return *a;
-        }
-        if a.is_exactly(1) {
-            let constant = a.constant && b.constant;
-            return Residue { constant, ..*b };
-        }
-    }
-    let is_rational = a.is_rational && b.is_rational;
-    let ratio = match (a.rational(), b.rational()) {
-        (Some(a), Some(b)) => a.times(b),
-        (Some(by), None) | (None, Some(by)) => {
-            let turn = if a.is_rational { b.ratio } else { a.ratio };
-            if turn.is_zero() {
-                Some(Ratio::ZERO)
-            } else {
-                turn.times(by)
-            }
-        }
-        (None, None) => None,
-    };
-    Residue {
-        field: a.field * b.field,
-        two_adic: a.two_adic * b.two_adic,
-        ratio: ratio.unwrap_or(Ratio::ZERO),
-        is_rational: is_rational && ratio.is_some(),
-        constant: a.constant && b.constant,
-        defined: true,
-    }
-}
-
-/// ζ(b) = e^{iπb} and its inverse, if the field has roots of unity of that order.
-///
-/// With b/2 = n/(2^k m), m odd, the root is a product of one of order 2^k, a power of the circle's
-/// generator, and one of order m, a power of [`ODD_ROOT`], by 1/(2^k m) ≡ u/2^k + w/m (mod 1), u =
-/// 1/m mod 2^k, w = 1/2^k mod m.
-fn root_of_unity(b: Ratio) -> Option<(Field, Field)> {
-    let k = b.denominator.trailing_zeros() + 1;
-    let m = b.denominator >> (k - 1);
-    if k > CIRCLE_BITS || ODD_ORDER % m != 0 {
-        return None;
-    }
-    let n = b.numerator;
-    let on_circle = (TwoAdic::integer(n) / TwoAdic::integer(m))
-        .modulo_power_of_two(CIRCLE_BITS)
-        .map(|power| GENERATOR.pow(power << (CIRCLE_BITS - k)))?;
-    // 1/2 mod m is (m + 1)/2.
-    let mut w = 1 % m;
-    for _ in 0..k {
-        w = (w as i128 * ((m + 1) / 2) as i128 % m as i128) as i64;
-    }
-    let power = n.rem_euclid(m) as i128 * w as i128 % m as i128;
-    let odd = ODD_ROOT.pow(power as u64 * (ODD_ORDER / m) as u64);
-    let odd_inverse = ODD_ROOT.pow((m - power as i64) as u64 * (ODD_ORDER / m) as u64);
-    Some((on_circle * odd, on_circle.conjugate() * odd_inverse))
-}
-
-/// n of a point gⁿ of the circle, bit by bit from the lowest: gⁿ raised to the power 2⁶⁰ is −1 if n
-/// is odd, 1 if even.
-///
-/// S. Pohlig and M. Hellman, *An improved algorithm for computing logarithms over GF(p)*, IEEE
-/// Trans. Inf. Theory 24 (1978) 106–110.
-fn circle_logarithm(mut point: Field) -> u64 {
-    let mut log = 0;
-    // g^(−2^k)
-    let mut step = GENERATOR.conjugate();
-    for k in 0..CIRCLE_BITS {
-        let last = (k + 1..CIRCLE_BITS).fold(point, |x, _| x * x);
-        if last != Field::ONE {
-            log |= 1 << k;
-            point = point * step;
-        }
-        step = step * step;
-    }
-    log
-}
-
-/// b ∈ (−1, 1] with g^log = e^{iπb}, if b has at most 12 halvings.
-fn simple_turn(log: u64) -> Option<Ratio> {
-    let half_turn = 1i64 << (CIRCLE_BITS - 1);
-    let mut signed = log as i64;
-    if signed > half_turn {
-        signed -= 2 * half_turn;
-    }
-    if signed.trailing_zeros() < SIMPLE_TURN_BITS {
-        return None;
-    }
-    Ratio::new(signed as i128, half_turn as i128)
 }
 
 /// √(n/d) = √n √d / d; undefined for negative n.

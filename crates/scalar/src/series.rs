@@ -150,6 +150,16 @@ pub fn factor<N: Scalar>(
     held: usize,
     matrix: &mut [N::Stored],
 ) -> Result<(), Vanished<N>> {
+    if N::PAIRS_AT_ONCE == 0 && size_of::<N::Stored>() == size_of::<f64>() {
+        match n {
+            9..=12 => return factor_in_registers::<N, 12>(n, held, matrix),
+            13..=16 => return factor_in_registers::<N, 16>(n, held, matrix),
+            17..=MOST_INVERTED => {
+                return factor_in_registers::<N, MOST_INVERTED>(n, held, matrix);
+            }
+            _ => {}
+        }
+    }
     let m = &mut matrix[..n * n];
     let tolerance = N::from_f64(n as f64 * f64::EPSILON);
     for i in 0..n {
@@ -229,6 +239,120 @@ fn invert<N: Scalar>(n: usize, m: &mut [N::Stored]) {
         for j in 0..i {
             m[i * n + j] = m[j * n + i];
         }
+    }
+}
+
+/// The number of columns that are computed together.
+const COLUMNS: usize = 4;
+
+/// [`factor`] with the inverse for a matrix with at most `P` rows, a multiple of [`COLUMNS`]: each number is the result of the same operations in the same order,
+/// but rows are computed along registers. 16 rows take half as long. The loops over registers are written with `while`: the compiler puts the numbers of an
+/// iterator with steps into no register.
+#[inline(always)]
+fn factor_in_registers<N: Scalar, const P: usize>(
+    n: usize,
+    held: usize,
+    matrix: &mut [N::Stored],
+) -> Result<(), Vanished<N>> {
+    const { assert!(P.is_multiple_of(COLUMNS), "whole registers") };
+    let zero = N::ZERO.store();
+    let matrix = &mut matrix[..n * n];
+    let tolerance = N::from_f64(n as f64 * f64::EPSILON);
+    // What is left of the upper triangle, L row by row, and the reciprocals of D.
+    let (mut left, mut lower, mut over) = ([[zero; P]; P], [[zero; P]; P], [zero; P]);
+    let mut scales = [zero; P];
+    for i in 0..n {
+        for j in 0..=i {
+            left[j][i] = matrix[i * n + j];
+        }
+        scales[i] = left[i][i];
+    }
+    for k in 0..n {
+        let row = left[k];
+        let pivot = N::load(row[k]);
+        let scale = N::load(scales[k]);
+        let remaining = if k >= held { -pivot } else { pivot };
+        if !remaining.exceeds(scale * tolerance) {
+            return Err(Vanished {
+                row: k,
+                pivot: remaining,
+                scale,
+            });
+        }
+        let reciprocal = N::ONE / pivot;
+        over[k] = reciprocal.store();
+        let mut scaled = [zero; P];
+        for j in 0..P {
+            scaled[j] = (N::load(row[j]) * reciprocal).store();
+        }
+        for i in k + 1..n {
+            let factor = N::load(scaled[i]);
+            if k < held && i >= held {
+                let sum = N::load(row[i]).mul_add(factor, N::load(scales[i]));
+                scales[i] = sum.store();
+            }
+            lower[i][k] = scaled[i];
+            let to = &mut left[i];
+            // Columns before the diagonal are not read.
+            let mut start = i / COLUMNS * COLUMNS;
+            while start < P {
+                for j in start..start + COLUMNS {
+                    let entry = N::load(row[j]).neg_mul_add(factor, N::load(to[j]));
+                    to[j] = entry.store();
+                }
+                start += COLUMNS;
+            }
+        }
+    }
+    invert_in_registers::<N, P>(n, &mut lower);
+    for i in 0..n {
+        // Σ over rows k of L⁻¹.
+        let mut sums = [zero; P];
+        for k in i..n {
+            let row = &lower[k];
+            let factor = N::load(row[i]) * N::load(over[k]);
+            let mut start = 0;
+            while start <= i {
+                for j in start..start + COLUMNS {
+                    let sum = factor.mul_add(N::load(row[j]), N::load(sums[j]));
+                    sums[j] = sum.store();
+                }
+                start += COLUMNS;
+            }
+        }
+        for j in 0..=i {
+            matrix[i * n + j] = sums[j];
+            matrix[j * n + i] = sums[j];
+        }
+    }
+    Ok(())
+}
+
+/// Computes L⁻¹, with its diagonal, in place of L without it.
+#[inline(always)]
+fn invert_in_registers<N: Scalar, const P: usize>(n: usize, lower: &mut [[N::Stored; P]; P]) {
+    for i in 0..n {
+        let of = lower[i];
+        let mut row = of;
+        for x in &mut row {
+            *x = (-N::load(*x)).store();
+        }
+        for k in 1..i {
+            let (above, factor) = (&lower[k], N::load(of[k]));
+            // Beyond its diagonal a row above is 0, except for the diagonal itself, which is set at the end.
+            let mut start = 0;
+            while start < k {
+                for j in start..start + COLUMNS {
+                    let x = factor.neg_mul_add(N::load(above[j]), N::load(row[j]));
+                    row[j] = x.store();
+                }
+                start += COLUMNS;
+            }
+        }
+        lower[i] = row;
+    }
+    for (i, row) in lower.iter_mut().enumerate().take(n) {
+        row[i] = N::ONE.store();
     }
 }
 

@@ -113,6 +113,29 @@ impl Factor {
         }
     }
 
+    /// Why the sets of values do not belong to the names, if so: such sets would give values to the wrong names.
+    pub fn fault(&self) -> Option<String> {
+        match self {
+            Factor::Grid { .. } | Factor::Sample { .. } => None,
+            Factor::List { names, rows } => {
+                let row = rows.iter().position(|row| row.len() != names.len())?;
+                let (found, expected) = (rows[row].len(), names.len());
+                Some(format!(
+                    "set {row} of a list of the design has {found} values for {expected} names"
+                ))
+            }
+            Factor::Together(parts) => {
+                let count = self.count();
+                let differs = parts.iter().find(|part| part.count() != count);
+                let differs = differs.map(|part| {
+                    let found = part.count();
+                    format!("factors of the design that are varied together have {count} and {found} values")
+                });
+                differs.or_else(|| parts.iter().find_map(Factor::fault))
+            }
+        }
+    }
+
     /// The number of sets of values.
     pub fn count(&self) -> u64 {
         match self {
@@ -267,6 +290,23 @@ mod tests {
         assert_eq!(all[1], [1.0, 5.0, 6.0]);
         assert_eq!(all[2], [1.5, 7.0, 8.0]);
         assert_eq!(all[5], [2.0, 5.0, 6.0]);
+    }
+
+    #[test]
+    fn sets_that_do_not_belong_to_the_names_are_found() {
+        let list = |rows: &[&[f64]]| Factor::List {
+            names: vec!["b".into(), "c".into()],
+            rows: rows.iter().map(|row| row.to_vec()).collect(),
+        };
+        assert_eq!(list(&[&[1.0, 2.0], &[3.0, 4.0]]).fault(), None);
+        for wrong in [
+            list(&[&[1.0, 2.0], &[3.0]]),
+            list(&[&[1.0, 2.0, 3.0]]),
+            Factor::Together(vec![grid("a", 0.0, 1.0, 3, false), list(&[&[1.0, 2.0]])]),
+            Factor::Together(vec![list(&[&[1.0]])]),
+        ] {
+            assert!(wrong.fault().is_some(), "{wrong:?}");
+        }
     }
 
     #[test]

@@ -190,10 +190,27 @@ impl Folder {
         }
     }
 
+    /// The chunks that are there, in ascending order.
+    ///
+    /// Lists the folder, since a plan may have far more chunks than were ever made.
+    pub fn chunks(&self, sweep: &Sweep) -> Vec<u64> {
+        let entries = fs::read_dir(&self.path).into_iter().flatten();
+        let numbers = entries.filter_map(|entry| {
+            let name = entry.ok()?.file_name();
+            let (number, _) = name.to_str()?.split_once('.')?;
+            number.parse().ok()
+        });
+        let all = sweep.plan().chunks();
+        let mut numbers: Vec<u64> = numbers.filter(|&number| number < all).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers.retain(|&number| self.has_chunk(sweep, number));
+        numbers
+    }
+
     /// The number of runs in the chunks that are there.
     pub fn runs(&self, sweep: &Sweep) -> u64 {
-        let chunks = 0..sweep.plan().chunks();
-        let there = chunks.filter(|&chunk| self.has_chunk(sweep, chunk));
+        let there = self.chunks(sweep).into_iter();
         let runs = there.map(|chunk| sweep.plan().runs_of(chunk));
         runs.map(|runs| runs.end - runs.start).sum()
     }

@@ -1,7 +1,7 @@
 //! Sweeps: many runs of one machine, over parameters, inputs and starts.
 //!
-//! A [`Plan`] holds everything on which the rows of a sweep depend. [`Sweep`] derives its machine once and makes any chunk of its
-//! runs: row i depends only on the plan and on i, not on the thread, host or order of execution. [`Folder`] stores chunks on
+//! A [`Plan`] holds everything on which the rows of a sweep depend. [`Sweep`] derives its machine once and computes any chunk of its
+//! runs: row i depends only on the plan and on i, and not on the thread, the host or the order of execution. [`Folder`] stores chunks on
 //! disk, so that a sweep that was killed can be resumed.
 
 pub mod charts;

@@ -47,7 +47,7 @@ pub enum InputArgument {
 /// If the text is malformed: what is wrong, and what is expected instead.
 pub fn parse_input(text: &str) -> Result<InputArgument, String> {
     let text = text.trim();
-    let Some(end) = end_of_file(text) else {
+    let Some(end) = end_of_table_name(text, &[',', ':']) else {
         return formula(text);
     };
     let (path, rest) = text.split_at(end);
@@ -103,8 +103,8 @@ const FILE_OPTIONS: [&str; 6] = [
     "end=repeat",
 ];
 
-/// The end of the file name at the beginning of a text; `None` if the text is a formula.
-fn end_of_file(text: &str) -> Option<usize> {
+/// The end of the name of a table at the beginning of a text, where the text ends or one of `next` follows; `None` if there is no such name.
+pub fn end_of_table_name(text: &str, next: &[char]) -> Option<usize> {
     let lower = text.to_ascii_lowercase();
     let ends = [".csv", ".parquet"].iter().flat_map(|ending| {
         let found = lower.match_indices(ending);
@@ -112,7 +112,7 @@ fn end_of_file(text: &str) -> Option<usize> {
     });
     let is_end = |end: &usize| {
         let rest = text.get(*end..);
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with([',', ':']))
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(next))
     };
     ends.filter(is_end).min()
 }

@@ -1,8 +1,9 @@
 //! Runs all chunks of a sweep on the cores of one computer.
 
 use std::num::NonZero;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::folder::{Folder, FolderError};
@@ -37,7 +38,7 @@ pub struct Progress {
 
 /// The default number of threads.
 pub fn cores() -> usize {
-    std::thread::available_parallelism().map_or(1, NonZero::get)
+    thread::available_parallelism().map_or(1, NonZero::get)
 }
 
 /// Chooses a length of chunks: as many runs as take about a second, judged by the first ones, and more where this fills
@@ -52,7 +53,7 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
     let (sender, receiver) = mpsc::channel::<()>();
     let began = Instant::now();
     let mut done = 0;
-    std::thread::scope(|scope| {
+    thread::scope(|scope| {
         let is_over = &is_over;
         scope.spawn(move || {
             if receiver.recv_timeout(CHUNK_DURATION) == Err(mpsc::RecvTimeoutError::Timeout) {
@@ -94,18 +95,21 @@ pub fn run_all(
         let runs = plan.runs_of(chunk);
         runs.end - runs.start
     };
-    let (there, missing): (Vec<u64>, Vec<u64>) =
-        (0..plan.chunks()).partition(|&chunk| folder.has_chunk(sweep, chunk));
-    let before: u64 = there.into_iter().map(length).sum();
+    let there = folder.chunks(sweep);
+    let before: u64 = there.iter().map(|&chunk| length(chunk)).sum();
+    // One after the other: a plan may have far more chunks than a list in memory.
+    let missing = (0..plan.chunks()).filter(|chunk| there.binary_search(chunk).is_err());
     let mut begun = 0;
-    let wanted = missing.iter().take_while(|&&chunk| {
+    let wanted = Mutex::new(missing.take_while(move |&chunk| {
         let is_wanted = limit.is_none_or(|limit| begun < limit);
         begun += length(chunk);
         is_wanted
-    });
-    let wanted: Vec<u64> = wanted.copied().collect();
+    }));
+    let next = || {
+        let mut wanted = wanted.lock().unwrap_or_else(PoisonError::into_inner);
+        wanted.next()
+    };
 
-    let next = AtomicUsize::new(0);
     let (done, failed) = (AtomicU64::new(before), AtomicU64::new(0));
     let trouble = Mutex::new(None);
     let count = |is_failed: bool| {
@@ -113,7 +117,7 @@ pub fn run_all(
         failed.fetch_add(u64::from(is_failed), Ordering::Relaxed);
     };
     let work = || {
-        while let Some(&chunk) = wanted.get(next.fetch_add(1, Ordering::Relaxed)) {
+        while let Some(chunk) = next() {
             let Some(made) = sweep.run(plan.runs_of(chunk), stop, &count) else {
                 return;
             };
@@ -125,14 +129,22 @@ pub fn run_all(
             }
         }
     };
-    std::thread::scope(|scope| {
+    thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel::<()>();
-        for _ in 0..threads.clamp(1, wanted.len().max(1)) {
+        let most = usize::try_from(plan.chunks()).unwrap_or(usize::MAX);
+        for count in 0..threads.clamp(1, most.max(1)) {
             let tell = sender.clone();
-            scope.spawn(move || {
+            let thread = thread::Builder::new().spawn_scoped(scope, move || {
                 let _lives = tell;
                 work();
             });
+            // A system permits only so many threads: those that have begun do the work, or else this one.
+            if thread.is_err() {
+                if count == 0 {
+                    work();
+                }
+                break;
+            }
         }
         drop(sender);
         while receiver.recv_timeout(REPORT_INTERVAL) == Err(mpsc::RecvTimeoutError::Timeout) {

@@ -1,8 +1,8 @@
 //! Units: powers of kilogram, metre, second, ampere and kelvin, and of the cycle. The radian is 1.
 //!
 //! A radian must be 1 and not a unit of its own: `x - yc*theta` subtracts a length times an angle
-//! from a length, as is customary in mechanics. A unit only remembers that a radian was written, so
-//! that messages say `rad/s` instead of `1/s`; two units that differ in nothing else are equal.
+//! from a length, as is customary in mechanics. A unit only records that a radian was written, so that
+//! messages contain `rad/s` instead of `1/s`; two units that differ in nothing else are equal.
 //!
 //! A cycle is not a radian: Hz, which is cycle/s, and rad/s differ by 2π, and confusing them gives
 //! results that are wrong by that factor. So the cycle is a base unit like metre and second, and a factor

@@ -1,5 +1,5 @@
-//! The loop over the orders of a series: sums of products over earlier orders, several of one state or one of several states in a register, followed by
-//! straight-line code.
+//! The loop over the orders of a series: sums of products over earlier orders, followed by straight-line code. A register holds several sums of one state, or
+//! the same sum of several states.
 //!
 //! A sum `Σ aⱼ bₙ₋ⱼ` goes from the middle outwards, in two sums, one towards either end of the lists: the order of terms of
 //! `lagrangian_scalar::series::convolve_all`.

@@ -1,7 +1,7 @@
 //! The memory of a step by series: numbers of the step, and a record for each order.
 //!
 //! ```text
-//! numbers of the step   time, state, inputs, constants, sums over orders, whatever a part of the code leaves to another one
+//! numbers of the step   time, state, inputs, constants, sums over orders, all that one part of the code passes to another
 //! record of order n     factors of sums over orders; numbers that follow from n; coefficients of order n of positions, and of order n − 2
 //!                       of what depends on accelerations
 //! ```

@@ -99,7 +99,8 @@ impl<'d> BoundKind<'d> {
             let message = tensor::flaw(numbers.try_into().ok()?)?;
             return Some((Code::ImpossibleInertia, message));
         }
-        let (demand, code, words) = self.rule();
+        let (demand, code) = self.rule();
+        let words = self.words();
         let below = match demand {
             Demand::NotBelowOther => format!(" below {}", numbers.get(1)?),
             _ => String::new(),
@@ -112,93 +113,64 @@ impl<'d> BoundKind<'d> {
     }
 
     /// What the number must be, and the error if it is not.
-    fn rule(self) -> (Demand, Code, &'static str) {
+    fn rule(self) -> (Demand, Code) {
+        use Code::{ImpossibleInertia, NegativeCoefficient, NotPositive, OutsideDomain};
+        use Demand::{Finite, NotBelowOther, NotNegative, Positive, UpToOne};
         match self {
-            BoundKind::Tensor(_) => (
-                Demand::Finite,
-                Code::ImpossibleInertia,
-                "a moment of inertia must be a finite number",
-            ),
-            BoundKind::Convex => (
-                Demand::Positive,
-                Code::OutsideDomain,
-                "these are not the corners of a convex polygon, listed counterclockwise, so that it lies to the left of every face",
-            ),
-            BoundKind::Mass => (
-                Demand::Positive,
-                Code::NotPositive,
-                "a mass must be positive",
-            ),
-            BoundKind::Moment => (
-                Demand::NotNegative,
-                Code::NotPositive,
-                "a moment of inertia must not be negative",
-            ),
-            BoundKind::Radius => (
-                Demand::Positive,
-                Code::NotPositive,
-                "a radius must be positive",
-            ),
-            BoundKind::Friction => (
-                Demand::NotNegative,
-                Code::NotPositive,
-                "a coefficient of friction must not be negative",
-            ),
-            BoundKind::RollingResistance => (
-                Demand::NotNegative,
-                Code::NotPositive,
-                "a coefficient of rolling resistance must not be negative",
-            ),
-            BoundKind::StaticFriction(_) => (
-                Demand::NotBelowOther,
-                Code::OutsideDomain,
-                "the coefficient of static friction must not be less than that of sliding friction",
-            ),
-            BoundKind::Restitution => (
-                Demand::UpToOne,
-                Code::OutsideDomain,
-                "a coefficient of restitution must lie between 0 and 1",
-            ),
-            BoundKind::ContactStiffness => (
-                Demand::Positive,
-                Code::NotPositive,
-                "the stiffness of a contact must be positive",
-            ),
-            BoundKind::ContactDamping => (
-                Demand::NotNegative,
-                Code::NotPositive,
-                "the damping of a contact must not be negative",
-            ),
-            BoundKind::Unloading(_) => (
-                Demand::NotBelowOther,
-                Code::OutsideDomain,
-                "the unloading stiffness of a layer must not be less than its loading stiffness",
-            ),
-            BoundKind::StopRange => (
-                Demand::NotNegative,
-                Code::OutsideDomain,
-                "a stop acts below `below` and above `above`, so that `above` less `below` must not be negative",
-            ),
-            BoundKind::Stiffness => (
-                Demand::NotNegative,
-                Code::NegativeCoefficient,
-                "a spring with negative stiffness pushes away from its rest position",
-            ),
-            BoundKind::Drag => (
-                Demand::NotNegative,
-                Code::NotPositive,
-                "drag opposes motion: its coefficient, area and density must not be negative",
-            ),
-            BoundKind::Derived => (
-                Demand::Finite,
-                Code::OutsideDomain,
-                "a derived parameter must be a finite number",
-            ),
-            BoundKind::Damping => (
-                Demand::NotNegative,
-                Code::NegativeCoefficient,
-                "a damper with negative damping adds energy",
-            ),
+            BoundKind::Tensor(_) => (Finite, ImpossibleInertia),
+            BoundKind::Convex => (Positive, OutsideDomain),
+            BoundKind::Mass => (Positive, NotPositive),
+            BoundKind::Moment => (NotNegative, NotPositive),
+            BoundKind::Radius => (Positive, NotPositive),
+            BoundKind::Friction => (NotNegative, NotPositive),
+            BoundKind::RollingResistance => (NotNegative, NotPositive),
+            BoundKind::StaticFriction(_) => (NotBelowOther, OutsideDomain),
+            BoundKind::Restitution => (UpToOne, OutsideDomain),
+            BoundKind::ContactStiffness => (Positive, NotPositive),
+            BoundKind::ContactDamping => (NotNegative, NotPositive),
+            BoundKind::Unloading(_) => (NotBelowOther, OutsideDomain),
+            BoundKind::StopRange => (NotNegative, OutsideDomain),
+            BoundKind::Stiffness => (NotNegative, NegativeCoefficient),
+            BoundKind::Drag => (NotNegative, NotPositive),
+            BoundKind::Derived => (Finite, OutsideDomain),
+            BoundKind::Damping => (NotNegative, NegativeCoefficient),
+        }
+    }
+
+    /// The rule as a sentence.
+    fn words(self) -> &'static str {
+        match self {
+            BoundKind::Tensor(_) => "a moment of inertia must be a finite number",
+            BoundKind::Convex => {
+                "these are not the corners of a convex polygon, listed counterclockwise, so that it lies to the left of every face"
+            }
+            BoundKind::Mass => "a mass must be positive",
+            BoundKind::Moment => "a moment of inertia must not be negative",
+            BoundKind::Radius => "a radius must be positive",
+            BoundKind::Friction => "a coefficient of friction must not be negative",
+            BoundKind::RollingResistance => {
+                "a coefficient of rolling resistance must not be negative"
+            }
+            BoundKind::StaticFriction(_) => {
+                "the coefficient of static friction must not be less than that of sliding friction"
+            }
+            BoundKind::Restitution => "a coefficient of restitution must lie between 0 and 1",
+            BoundKind::ContactStiffness => "the stiffness of a contact must be positive",
+            BoundKind::ContactDamping => "the damping of a contact must not be negative",
+            BoundKind::Unloading(_) => {
+                "the unloading stiffness of a layer must not be less than its loading stiffness"
+            }
+            BoundKind::StopRange => {
+                "a stop acts below `below` and above `above`, so that `above` less `below` must not be negative"
+            }
+            BoundKind::Stiffness => {
+                "a spring with negative stiffness pushes away from its rest position"
+            }
+            BoundKind::Drag => {
+                "drag opposes motion: its coefficient, area and density must not be negative"
+            }
+            BoundKind::Derived => "a derived parameter must be a finite number",
+            BoundKind::Damping => "a damper with negative damping adds energy",
         }
     }
 }

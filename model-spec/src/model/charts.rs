@@ -1,6 +1,6 @@
 //! A machine in another chart: polar coordinates about a point, replaced by Cartesian ones about the same point.
 //!
-//! Polar coordinates `(s, φ)` say nothing about the direction where `s = 0`, and the mass matrix is singular there. For a body that
+//! Where `s = 0`, polar coordinates `(s, φ)` do not determine a direction, and the mass matrix is singular. For a body that
 //! may pass through this point, a spec names a second pair of coordinates,
 //!
 //! ```text

@@ -199,15 +199,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         noun: &str,
         help: &'static str,
     ) -> bool {
-        let Some(member) = self.rate_within(expression, SectionKind::Coordinates) else {
-            return false;
-        };
-        let message = format!(
-            "{noun} cannot depend on the rate of `{}`",
-            self.name(member)
-        );
-        self.push(Diagnostic::new(Code::ForbiddenDependence, span, message).help(help));
-        true
+        let what = format!("{noun} cannot depend on the rate of");
+        self.refuse_within(expression, span, (SectionKind::Coordinates, &what, help))
     }
 
     /// Refuses an expression that contains a state where none is allowed; returns true if it does.
@@ -218,10 +211,21 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         noun: &str,
         help: &'static str,
     ) -> bool {
-        let Some(member) = self.rate_within(expression, SectionKind::States) else {
+        let what = format!("{noun} cannot depend on the state");
+        self.refuse_within(expression, span, (SectionKind::States, &what, help))
+    }
+
+    /// Refuses an expression with a coordinate whose rate it contains, or with a state: `what` is the message, before its name.
+    fn refuse_within(
+        &mut self,
+        expression: Expr<'d>,
+        span: Span,
+        (section, what, help): (SectionKind, &str, &'static str),
+    ) -> bool {
+        let Some(member) = self.rate_within(expression, section) else {
             return false;
         };
-        let message = format!("{noun} cannot depend on the state `{}`", self.name(member));
+        let message = format!("{what} `{}`", self.name(member));
         self.push(Diagnostic::new(Code::ForbiddenDependence, span, message).help(help));
         true
     }

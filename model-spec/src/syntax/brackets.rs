@@ -1,7 +1,7 @@
 //! Pairs brackets before anything else is parsed.
 //!
-//! A missing bracket misleads a parser for the rest of the file. Here it is reported once, where it
-//! opens, and inserted where it most likely belongs; the parser sees only balanced text.
+//! A missing bracket would mislead a parser for the rest of the file. Here it is reported once, where it
+//! opens, and inserted where it most likely belongs; the parser receives only balanced text.
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::Span;

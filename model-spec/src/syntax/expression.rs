@@ -225,14 +225,7 @@ impl Parser<'_> {
                 self.fail(range.help("name one member: `q[1]`, or `q[i]` in a family"));
             }
             self.leave_nested(group, "`]`");
-            if self.is_open(Delimiter::Bracket) {
-                let message = "a family has one index";
-                self.fail(Diagnostic::new(
-                    Code::MisplacedIndex,
-                    self.next_span(),
-                    message,
-                ));
-            }
+            self.refuse_second_index();
         }
         Expression {
             kind: ExpressionKind::Name(Reference { base, index }),

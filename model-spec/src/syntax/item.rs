@@ -106,6 +106,12 @@ impl Parser<'_> {
             declared.index = self.index();
             self.leave(group, "`]`");
         }
+        self.refuse_second_index();
+        Some(declared)
+    }
+
+    /// Refuses an index behind an index.
+    pub(super) fn refuse_second_index(&mut self) {
         if self.is_open(Delimiter::Bracket) {
             let message = "a family has one index";
             self.fail(Diagnostic::new(
@@ -114,7 +120,6 @@ impl Parser<'_> {
                 message,
             ));
         }
-        Some(declared)
     }
 
     /// The content of the brackets of a declaration.

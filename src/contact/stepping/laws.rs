@@ -14,18 +14,20 @@
 //! *Stability and Convergence of Mechanical Systems with Unilateral Constraints*, 2008, chapter 5.)
 //!
 //! **Laws of impact.** `newton` with all contacts at once is part of the problem of the step, as Moreau has it. Other laws define impulses at a single instant,
-//! without forces that act meanwhile: with them a compression by the weight of a body at rest would be followed by an expansion. Therefore a step in which an open
-//! contact closes is divided into half a step with the forces, the impact, and another half step:
+//! without forces that act meanwhile: with them a compression by the weight of a body at rest would be followed by an expansion. Therefore a step in which a
+//! contact closes and bounces is divided at the first such instant, after the part θ of the step:
 //!
 //! ```text
-//! M (v' − v)   = h/2 f + W Λ'      for contacts closed in the previous step, without restitution
-//! M (v* − v')  = W Λ*              by the law of impact
-//! M (v⁺ − v*)  = h/2 f + W Λ''     for touching contacts, without restitution
+//! M (v' − v)   = θ h f + W Λ'             for contacts closed in the previous step, without restitution
+//! M (v* − v')  = W Λ*                     by the law of impact
+//! M (v⁺ − v*)  = (1 − θ) h f + W Λ''      for touching contacts, without restitution
+//! q⁺ − q = θ h (v + v')/2 + (1 − θ) h (v* + v⁺)/2
 //! ```
 //!
-//! and any other step is one problem without restitution. The impulses of the half steps dissipate energy, so that only the law of impact can add energy besides
+//! and any other step is one problem without restitution. In both parts contacts are kept from passing their gaps, `γ⁺ ≥ −2 g/h` with the gap in the middle of the part. The impulses of the parts
+//! dissipate energy, so that only the law of impact can add energy besides
 //! the work of the forces. A law for one contact at a time, or that of a `sequence`, is applied to one contact after the other, the one that closes fastest first,
-//! a limited number of times; a contact that is still closing then is stopped by the second half step, without restitution.
+//! a limited number of times; a contact that is still closing then is stopped in the rest of the step, without restitution.
 
 use std::vec;
 use std::vec::Vec;
@@ -34,6 +36,7 @@ use super::super::impact::{Meeting, Told};
 use super::super::kinematics::{ContactKinematics, ROUNDING};
 use super::super::problem::{Answer, ContactUnknowns, SATURATED};
 use super::super::{ContactTrouble, ImpactLaw, ImpactOrder, Mode, UnilateralState, undetermined};
+use super::approach::{Approach, Course, Manner, beyond_rounding};
 use crate::StepError;
 
 /// How large the residual of impulses may be.
@@ -41,6 +44,9 @@ const MOST_RESIDUAL: f64 = 1e-8;
 
 /// Rates up to this, relative to the greatest rate, are those of contacts that are held.
 const HELD: f64 = 1e-9;
+
+/// A part of a step that is shorter than this part of it is none.
+const LEAST_PART: f64 = 1e-9;
 
 /// How often a contact is hit in one step by a law that takes contacts one after the other, at most, for each of the contacts.
 const MOST_HITS: usize = 32;
@@ -56,14 +62,21 @@ pub(super) struct ContactsOfStep<'a> {
     pub h: f64,
     /// The rates that there would be at its end if nothing touched.
     pub free: &'a [f64],
-    /// The rates at which contacts may close that are beside what they touch.
-    pub ways_back: &'a [f64],
+    /// The courses of their gaps without impulses; of what leans on another contact, that one's.
+    pub courses: &'a [Course],
 }
 
 /// Impulses of the contacts that touch in a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ImpulsesOfStep {
     pub all: Vec<[f64; 2]>,
+    /// How they move what they push beside changing its rates: the impulses times how much earlier than in the middle of the step they would act at once, in N s².
+    pub shifts: Vec<[f64; 2]>,
+    /// The rates before and after the impact of each contact, of gap and slip, and what each of both directions took, in J.
+    pub rates: Vec<[[f64; 2]; 2]>,
+    pub losses: Vec<[f64; 2]>,
+    /// How contacts met.
+    pub approaches: Vec<Approach>,
     /// What of these acted last, from which follows what contacts do at the end of the step.
     pub last: Vec<[f64; 2]>,
     /// Which contacts are held by their static friction.
@@ -80,6 +93,8 @@ pub(super) struct LawsMemory {
     b: Vec<f64>,
     rates: Vec<f64>,
     near: Vec<[f64; 2]>,
+    /// The forces with which a search begins, if these are not those of the step before.
+    start: Option<Vec<[f64; 2]>>,
     none: Vec<f64>,
     may_stop: Vec<bool>,
     unknowns: Vec<ContactUnknowns>,
@@ -97,21 +112,16 @@ impl ContactsOfStep<'_> {
         impulses: &mut ImpulsesOfStep,
         memory: &mut LawsMemory,
     ) -> Result<(), StepError> {
-        let at_once = self.touching.order == ImpactOrder::AtOnce;
-        let in_one_problem = at_once && self.touching.law == ImpactLaw::Newton;
-        if !in_one_problem && self.meets() {
-            *impulses = self.in_halves(memory)?;
-            return Ok(());
+        self.write_approaches(true, &mut impulses.approaches);
+        let in_one_problem = self.touching.steps_in_one_problem();
+        if !in_one_problem && self.first_impact(&impulses.approaches).is_some() {
+            return self.write_divided(impulses, memory);
         }
-        let rests = &mut impulses.rests;
-        let mut has_impulses = self.whole(in_one_problem, rests, memory);
-        let is_jammed = !has_impulses && in_one_problem;
-        if is_jammed {
-            has_impulses = self.whole(false, rests, memory);
-        }
-        if !has_impulses {
-            return Err(self.unsettled());
-        }
+        let is_jammed = if self.whole(impulses, |_| true, memory) {
+            false
+        } else {
+            (self.whole_otherwise(impulses, memory)).ok_or_else(|| self.unsettled())?
+        };
         let answer = &memory.answer;
         impulses.all.clone_from(&answer.forces);
         impulses.last.clone_from(&answer.forces);
@@ -120,7 +130,100 @@ impl ContactsOfStep<'_> {
         if is_jammed {
             impulses.jammed.extend(0..self.meeting.contacts.len());
         }
+        self.write_effects_of_whole(impulses, &mut memory.rates);
         Ok(())
+    }
+
+    /// Solves for the impulses of the whole step where the search for them has failed; whether they are without restitution, if there are any. The search begins at those without restitution. If that
+    /// fails too, only those contacts press that are closed in the middle of the step, as Moreau has it: feet of a body that stay beside what they touch do so at rates of their gaps, which others
+    /// that are beyond theirs do not have, and so no motion of the body.
+    fn whole_otherwise(
+        &self,
+        impulses: &mut ImpulsesOfStep,
+        memory: &mut LawsMemory,
+    ) -> Option<bool> {
+        let is_closed = |place: usize| self.courses[place].is_closed();
+        self.write_approaches(false, &mut impulses.approaches);
+        if self.whole(impulses, |_| true, memory) {
+            memory.start = Some(memory.answer.forces.clone());
+        }
+        self.write_approaches(true, &mut impulses.approaches);
+        let has_impulses = memory.start.is_some() && self.whole(impulses, |_| true, memory);
+        memory.start = None;
+        if has_impulses || self.whole(impulses, is_closed, memory) {
+            return Some(false);
+        }
+        self.write_approaches(false, &mut impulses.approaches);
+        let has_impulses =
+            self.whole(impulses, |_| true, memory) || self.whole(impulses, is_closed, memory);
+        has_impulses.then_some(true)
+    }
+
+    /// Writes how contacts meet, with their restitution or without.
+    fn write_approaches(&self, has_restitution: bool, approaches: &mut Vec<Approach>) {
+        approaches.clear();
+        approaches.extend(self.courses.iter().map(|course| {
+            let restitution = if has_restitution {
+                course.restitution
+            } else {
+                0.0
+            };
+            Course {
+                restitution,
+                ..*course
+            }
+            .approach()
+        }));
+    }
+
+    /// After which part of the step a contact first bounces, if any does.
+    fn first_impact(&self, approaches: &[Approach]) -> Option<f64> {
+        let bounces = |approach: &&Approach| {
+            matches!(approach.manner, Manner::Bounces | Manner::Returns) && approach.arrival > 0.0
+        };
+        let parts = approaches.iter().filter(bounces);
+        let first = parts.map(|approach| 1.0 - approach.left);
+        first.min_by(f64::total_cmp)
+    }
+
+    /// Writes what the impulses of the whole step do beside changing rates.
+    fn write_effects_of_whole(&self, impulses: &mut ImpulsesOfStep, after: &mut Vec<f64>) {
+        let ImpulsesOfStep {
+            all,
+            shifts,
+            rates,
+            losses,
+            approaches,
+            ..
+        } = impulses;
+        self.write_after(self.free, all, after);
+        shifts.clear();
+        rates.clear();
+        losses.clear();
+        for (place, (impulse, approach)) in all.iter().zip(&*approaches).enumerate() {
+            let [before, free, after] = [&self.meeting.before[..], self.free, &after[..]]
+                .map(|rates| [rates[2 * place], rates[2 * place + 1]]);
+            let left = approach.left;
+            shifts.push(impulse.map(|impulse| (left - 0.5) * self.h * impulse));
+            losses.push([0, 1].map(|part| {
+                let of_forces = (1.0 - 2.0 * left) * (free[part] - before[part]);
+                -0.5 * impulse[part] * (before[part] + after[part] + of_forces)
+            }));
+            let of_part = |part: usize| match approach.manner {
+                Manner::Bounces => {
+                    let of_forces = free[part] - before[part];
+                    [
+                        before[part] + (1.0 - left) * of_forces,
+                        after[part] - left * of_forces,
+                    ]
+                }
+                Manner::Rests | Manner::Returns if part == 0 && !self.was_closed(place) => {
+                    [-approach.arrival, after[0]]
+                }
+                _ => [before[part], after[part]],
+            };
+            rates.push([of_part(0), of_part(1)]);
+        }
     }
 
     fn unsettled(&self) -> StepError {
@@ -139,6 +242,12 @@ impl ContactsOfStep<'_> {
         self.touching.modes()[self.meeting.contacts[place]] != Mode::Open
     }
 
+    /// Whether a contact sticks, and inertia couples it with no other one.
+    fn sticks_alone(&self, place: usize) -> bool {
+        let mode = self.touching.modes()[self.meeting.contacts[place]];
+        mode == Mode::Sticks && !self.courses[place].is_coupled
+    }
+
     /// Whether a contact is that whose gap another one has too.
     fn is_own(&self, place: usize) -> bool {
         self.touching
@@ -149,14 +258,6 @@ impl ContactsOfStep<'_> {
     /// The place of the contact whose normal impulse one leans on.
     fn carrier(&self, place: usize) -> usize {
         place - usize::from(!self.is_own(place))
-    }
-
-    /// Whether something that was open closes.
-    fn meets(&self) -> bool {
-        (0..self.meeting.contacts.len()).any(|place| {
-            let closes = self.meeting.before[2 * place] < -self.rate_rounding(place);
-            self.is_own(place) && !self.was_closed(place) && closes
-        })
     }
 
     fn rate_rounding(&self, place: usize) -> f64 {
@@ -212,83 +313,168 @@ impl ContactsOfStep<'_> {
         resting.extend((0..self.meeting.contacts.len()).map(rests));
     }
 
-    /// Writes the impulses of the whole step in one problem; whether there are any that obey the law.
-    fn whole(&self, has_restitution: bool, rests: &mut Vec<bool>, memory: &mut LawsMemory) -> bool {
-        let share = f64::from(u8::from(has_restitution));
-        let directions = self.meeting.directions.iter();
+    /// Solves for the impulses of the whole step in one problem, of the contacts that take part; whether there are any that obey the law.
+    fn whole(
+        &self,
+        impulses: &mut ImpulsesOfStep,
+        takes_part: impl Fn(usize) -> bool,
+        memory: &mut LawsMemory,
+    ) -> bool {
+        let ImpulsesOfStep {
+            rests, approaches, ..
+        } = impulses;
         let mut b = core::mem::take(&mut memory.b);
         b.clear();
-        b.extend((directions.zip(self.free).zip(&self.meeting.before)).map(
-            |((d, free), before)| {
-                // What opens has not met: with restitution a contact that comes back to its gap would go beyond it by as much, step after step.
-                let before = if d % 2 == 0 { before.min(0.0) } else { *before };
-                free + share * self.here.restitution(d / 2)[d % 2] * before
-            },
-        ));
-        for (normal, way_back) in b.iter_mut().step_by(2).zip(self.ways_back) {
-            *normal += way_back;
+        let before = self.meeting.before.chunks_exact(2);
+        let rates = before.zip(self.free.chunks_exact(2));
+        for ((place, approach), (before, free)) in approaches.iter().enumerate().zip(rates) {
+            let of_tangent = match approach.manner {
+                Manner::Bounces => {
+                    let [_, restitution] = self.here.restitution(self.meeting.contacts[place]);
+                    let slip = before[1] + (1.0 - approach.left) * (free[1] - before[1]);
+                    (1.0 + restitution) * slip
+                }
+                // What sticks where it turns, slips along the row in the middle of the step as much after it as before: with a slip of 0 it would gain energy, or lose some.
+                _ if self.sticks_alone(place) => {
+                    let bent =
+                        0.5 * self.h * self.here.biases[2 * self.meeting.contacts[place] + 1];
+                    free[1] + bent.clamp(before[1].min(0.0), before[1].max(0.0))
+                }
+                _ => free[1],
+            };
+            b.extend([free[0] - approach.least, of_tangent]);
         }
         self.write_resting(rests);
-        let has_impulses = self.held(&b, (&self.meeting.before, 1.0), rests, |_| true, memory);
+        let has_impulses = self.held(&b, (&self.meeting.before, 1.0), rests, takes_part, memory);
         memory.b = b;
         has_impulses
     }
 
-    /// The impulses of a step in which something meets by a law for an instant.
-    fn in_halves(&self, memory: &mut LawsMemory) -> Result<ImpulsesOfStep, StepError> {
+    /// Writes the impulses of a step in which something meets by a law for an instant.
+    fn write_divided(
+        &self,
+        impulses: &mut ImpulsesOfStep,
+        memory: &mut LawsMemory,
+    ) -> Result<(), StepError> {
         let meeting = self.meeting;
-        let of_forces: Vec<f64> = (self.free.iter().zip(&meeting.before))
-            .map(|(free, before)| 0.5 * (free - before))
-            .collect();
-        let with_forces = |rates: &[f64]| -> Vec<f64> {
-            let pairs = rates.iter().zip(&of_forces);
-            pairs.map(|(rate, by)| rate + by).collect()
-        };
-        let mut rests = Vec::new();
+        let first_part = self.first_impact(&impulses.approaches).unwrap_or(0.5);
+        let parts = [first_part, 1.0 - first_part];
+        impulses.jammed.clear();
+        impulses.shared_otherwise.clear();
+        let mut rests = core::mem::take(&mut impulses.rests);
         self.write_resting(&mut rests);
+        let start: Vec<f64> = (0..meeting.contacts.len())
+            .map(|place| {
+                let course = &self.courses[place];
+                (course.gap - 0.5 * self.h * course.rates[0]).max(0.0)
+            })
+            .collect();
         let was_closed = |place: usize| self.was_closed(self.carrier(place));
-        let b = with_forces(&meeting.before);
-        if !self.held(&b, (&meeting.before, 0.5), &mut rests, was_closed, memory) {
-            return Err(self.unsettled());
-        }
-        let first = memory.answer.clone();
-        let rates = self.after(&b, &first.forces);
+        let of_first = (parts[0], &start[..], &meeting.before[..]);
+        let (first, at_impact) =
+            self.write_part(of_first, (&mut rests, impulses), was_closed, memory)?;
 
         let mut told = Told::default();
-        let of_impact = self.impact(&rates, &mut told)?;
-        let rates = self.after(&rates, &of_impact);
-
-        let mut b = with_forces(&rates);
-        for (normal, way_back) in b.iter_mut().step_by(2).zip(self.ways_back) {
-            *normal += way_back;
-        }
+        let of_impact = self.impact(&at_impact, &mut told)?;
+        let after_impact = self.after(&at_impact, &of_impact);
         // A contact that the impact made slip does not rest any more.
-        let still = HELD * greatest(&rates);
+        let still = HELD * greatest(&after_impact);
         for (place, rests) in rests.iter_mut().enumerate() {
-            let slip = self.slip(&rates, place);
+            let slip = self.slip(&after_impact, place);
             *rests &= slip[0].hypot(slip[1]) <= still;
         }
-        if !self.held(&b, (&rates, 0.5), &mut rests, |_| true, memory) {
+        let gaps: Vec<f64> = (start.iter().enumerate())
+            .map(|(place, gap)| {
+                let mean = 0.5 * (meeting.before[2 * place] + at_impact[2 * place]);
+                (gap + parts[0] * self.h * mean).max(0.0)
+            })
+            .collect();
+        let of_last = (parts[1], &gaps[..], &after_impact[..]);
+        let (last, at_end) = self.write_part(of_last, (&mut rests, impulses), |_| true, memory)?;
+
+        impulses.rests = rests;
+        let place_of = |k: &usize| meeting.contacts.iter().position(|own| own == k);
+        (impulses.shared_otherwise).extend(told.shared_otherwise.iter().filter_map(place_of));
+        impulses.shared_otherwise.sort_unstable();
+        impulses.shared_otherwise.dedup();
+        (impulses.jammed).extend(told.jammed.iter().filter_map(place_of));
+        self.write_effects_of_parts(
+            impulses,
+            first_part,
+            [&first, &of_impact, &last],
+            [&meeting.before, &at_impact, &after_impact, &at_end],
+        );
+        impulses.last = last;
+        Ok(())
+    }
+
+    /// The impulses in a part of the step, without restitution, that begins with these gaps and rates, and the rates at its end.
+    fn write_part(
+        &self,
+        (part, gaps, before): (f64, &[f64], &[f64]),
+        (rests, impulses): (&mut [bool], &mut ImpulsesOfStep),
+        takes_part: impl Fn(usize) -> bool,
+        memory: &mut LawsMemory,
+    ) -> Result<(Vec<[f64; 2]>, Vec<f64>), StepError> {
+        if part < LEAST_PART {
+            return Ok((vec![[0.0; 2]; gaps.len()], before.to_vec()));
+        }
+        let length = part * self.h;
+        let forces = self.free.iter().zip(&self.meeting.before);
+        let free: Vec<f64> = (before.iter().zip(forces))
+            .map(|(before, (free, start))| before + part * (free - start))
+            .collect();
+        let mut b = free.clone();
+        for (place, gap) in gaps.iter().enumerate() {
+            let in_middle = gap + 0.5 * length * before[2 * place];
+            let in_middle = beyond_rounding(in_middle, self.courses[place].rounding);
+            b[2 * place] += 2.0 / length * in_middle.max(0.0);
+        }
+        if !self.held(&b, (before, part), rests, takes_part, memory) {
             return Err(self.unsettled());
         }
-        let last = memory.answer.clone();
+        let found = memory.answer.forces.clone();
+        (impulses.shared_otherwise).extend_from_slice(&memory.answer.shared_otherwise);
+        let after = self.after(&free, &found);
+        Ok((found, after))
+    }
 
-        let parts = (first.forces.iter().zip(&of_impact)).zip(&last.forces);
-        let all = parts.map(|((a, b), c)| [a[0] + b[0] + c[0], a[1] + b[1] + c[1]]);
-        let place_of = |k: &usize| meeting.contacts.iter().position(|own| own == k);
-        let mut shared_otherwise: Vec<usize> =
-            told.shared_otherwise.iter().filter_map(place_of).collect();
-        shared_otherwise.extend(first.shared_otherwise);
-        shared_otherwise.extend(last.shared_otherwise);
-        shared_otherwise.sort_unstable();
-        shared_otherwise.dedup();
-        Ok(ImpulsesOfStep {
-            all: all.collect(),
-            last: last.forces,
-            rests,
-            shared_otherwise,
-            jammed: told.jammed.iter().filter_map(place_of).collect(),
-        })
+    /// Writes what the impulses of a divided step do, with the rates between them.
+    fn write_effects_of_parts(
+        &self,
+        effects: &mut ImpulsesOfStep,
+        first_part: f64,
+        impulses: [&[[f64; 2]]; 3],
+        rates: [&[f64]; 4],
+    ) {
+        let earlier = [0.5 - 0.5 * first_part, 0.5 - first_part, -0.5 * first_part];
+        effects.all.clear();
+        effects.shifts.clear();
+        effects.losses.clear();
+        effects.rates.clear();
+        for place in 0..self.meeting.contacts.len() {
+            let (mut all, mut shift, mut loss) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+            for (stage, earlier) in earlier.into_iter().enumerate() {
+                for part in 0..2 {
+                    let impulse = impulses[stage][place][part];
+                    let sum = rates[stage][2 * place + part] + rates[stage + 1][2 * place + part];
+                    all[part] += impulse;
+                    shift[part] += earlier * self.h * impulse;
+                    loss[part] -= 0.5 * impulse * sum;
+                }
+            }
+            effects.all.push(all);
+            effects.shifts.push(shift);
+            effects.losses.push(loss);
+            let [before, after] = if impulses[1][place] == [0.0; 2] {
+                [rates[0], rates[3]]
+            } else {
+                [rates[1], rates[2]]
+            };
+            effects
+                .rates
+                .push([0, 1].map(|part| [before[2 * place + part], after[2 * place + part]]));
+        }
     }
 
     /// The impulses of an impact at these rates.
@@ -364,7 +550,6 @@ impl ContactsOfStep<'_> {
     ) -> bool {
         let Self {
             touching,
-            here,
             meeting,
             h,
             ..
@@ -372,6 +557,7 @@ impl ContactsOfStep<'_> {
         let LawsMemory {
             rates,
             near,
+            start,
             none,
             may_stop,
             unknowns,
@@ -379,39 +565,22 @@ impl ContactsOfStep<'_> {
             undetermined,
             ..
         } = memory;
-        let contacts = &meeting.contacts;
-        let places = || 0..contacts.len();
-        // Most contacts do what they did in the step before.
         near.clear();
-        near.extend(contacts.iter().map(|k| match touching.stepped() {
+        // Most contacts do what they did in the step before.
+        near.extend(meeting.contacts.iter().map(|k| match touching.stepped() {
             Some(forces) => forces[*k].map(|force| part * h * force),
             None => [0.0; 2],
         }));
+        if let Some(start) = start {
+            near.clone_from(start);
+        }
         none.clear();
-        none.resize(contacts.len(), 0.0);
-        // These contacts slip, have more static friction, and may come to rest within the step.
+        none.resize(rests.len(), 0.0);
         may_stop.clear();
-        may_stop.extend(places().map(|place| {
-            let k = contacts[place];
-            let [kinetic, at_rest] = here.friction(k);
-            let is_first = touching.first(k) == k;
-            is_first && at_rest > kinetic && self.was_closed(place) && !rests[place]
-        }));
+        may_stop.extend((0..rests.len()).map(|place| self.may_stop(place, rests[place])));
         let still = HELD * greatest(b);
         loop {
-            unknowns.clear();
-            unknowns.extend(places().map(|place| {
-                let contact = contacts[place];
-                if !takes_part(place) {
-                    return ContactUnknowns::Nothing;
-                }
-                let own = touching.unknowns_of_impact(here, (place, contact), none);
-                if rests[place] {
-                    with_friction(own, here.friction(contact)[1])
-                } else {
-                    own
-                }
-            }));
+            self.write_unknowns((rests, none), &takes_part, unknowns);
             let of_motion = (&meeting.g[..], b);
             let solved =
                 undetermined::solve_for_motion(unknowns, of_motion, near, answer, undetermined);
@@ -422,28 +591,80 @@ impl ContactsOfStep<'_> {
                 return true;
             }
             self.write_after(b, &answer.forces, rates);
-            let mut changes = false;
-            for (place, rests) in rests.iter_mut().enumerate().filter(|(_, rests)| **rests) {
-                let slip = self.slip(rates, place);
-                if slip[0].hypot(slip[1]) > still && self.is_used_up(answer, place) {
-                    *rests = false;
-                    changes = true;
-                }
-            }
-            if !changes {
-                let slipping = may_stop.iter_mut().enumerate();
-                for (place, may_stop) in slipping.filter(|(_, may_stop)| **may_stop) {
-                    let was = self.slip(before, place);
-                    let is = self.slip(rates, place);
-                    if was[0] * is[0] + was[1] * is[1] < 0.0 {
-                        (rests[place], *may_stop, changes) = (true, false, true);
-                    }
-                }
-            }
+            let changes = self.lets_slip((rates, answer), still, rests)
+                || self.lets_stop((before, rates), may_stop, rests);
             if !changes {
                 return true;
             }
         }
+    }
+
+    /// Whether a contact slips, has more static friction, and may come to rest within the step.
+    fn may_stop(&self, place: usize, rests: bool) -> bool {
+        let k = self.meeting.contacts[place];
+        let [kinetic, at_rest] = self.here.friction(k);
+        let is_first = self.touching.first(k) == k;
+        is_first && at_rest > kinetic && self.was_closed(place) && !rests
+    }
+
+    /// Writes what is asked of contacts, of which some may stick with their static friction.
+    fn write_unknowns(
+        &self,
+        (rests, none): (&[bool], &[f64]),
+        takes_part: impl Fn(usize) -> bool,
+        unknowns: &mut Vec<ContactUnknowns>,
+    ) {
+        unknowns.clear();
+        unknowns.extend(rests.iter().enumerate().map(|(place, rests)| {
+            let contact = self.meeting.contacts[place];
+            if !takes_part(place) {
+                return ContactUnknowns::Nothing;
+            }
+            let own = self
+                .touching
+                .unknowns_of_impact(self.here, (place, contact), none);
+            if *rests {
+                with_friction(own, self.here.friction(contact)[1])
+            } else {
+                own
+            }
+        }));
+    }
+
+    /// Lets contacts slip whose static friction is used up; whether there are any.
+    fn lets_slip(
+        &self,
+        (rates, answer): (&[f64], &Answer),
+        still: f64,
+        rests: &mut [bool],
+    ) -> bool {
+        let mut changes = false;
+        for (place, rests) in rests.iter_mut().enumerate().filter(|(_, rests)| **rests) {
+            let slip = self.slip(rates, place);
+            if slip[0].hypot(slip[1]) > still && self.is_used_up(answer, place) {
+                *rests = false;
+                changes = true;
+            }
+        }
+        changes
+    }
+
+    /// Lets contacts stick whose slip reverses, each once; whether there are any.
+    fn lets_stop(
+        &self,
+        (before, after): (&[f64], &[f64]),
+        may_stop: &mut [bool],
+        rests: &mut [bool],
+    ) -> bool {
+        let mut changes = false;
+        let slipping = may_stop.iter_mut().enumerate();
+        for (place, may_stop) in slipping.filter(|(_, may_stop)| **may_stop) {
+            let [was, is] = [before, after].map(|rates| self.slip(rates, place));
+            if was[0] * is[0] + was[1] * is[1] < 0.0 {
+                (rests[place], *may_stop, changes) = (true, false, true);
+            }
+        }
+        changes
     }
 
     /// Whether the static friction of a contact is used up.

@@ -134,8 +134,8 @@ impl<'a, S: System> Held<'a, S> {
     }
 }
 
-/// By how much a state may move onto the contacts that are closed: so many times the greatest gap of these, and the second number times the rounding of a gap. Where
-/// it moves further, gaps hardly change with it, as those of a body that is wedged in between faces that are almost parallel.
+/// The largest displacement of a state onto the closed contacts: the first number times their largest gap, and the second number times the rounding of a gap. If it moves
+/// further, gaps hardly depend on it, as those of a body that is wedged in between almost parallel faces.
 const MOST_DISPLACED: [f64; 2] = [1e3, 1e6];
 
 impl UnilateralState {

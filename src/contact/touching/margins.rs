@@ -8,7 +8,7 @@ use super::{Margin, Mode, ROUNDING_OF_FORCES, UnilateralState};
 use crate::at::At;
 use crate::{StepError, System, Vector};
 
-/// By how much the states of closed contacts hold.
+/// The margins by which the states of closed contacts hold.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Margins {
     /// For each contact: that it presses, that it slips as it does or sticks, and that a layer is loaded or unloaded
@@ -19,8 +19,8 @@ pub(crate) struct Margins {
 }
 
 impl UnilateralState {
-    /// By how much the states of closed contacts hold: whether they press, and whether what slips does so still,
-    /// or what sticks has friction left.
+    /// The margins by which the states of closed contacts hold: that they press, that those that slip still do so, and that those that
+    /// stick need less than their friction.
     pub fn margins<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Margins, StepError> {
         let mut margins = Margins::default();
         self.write_margins(
@@ -77,9 +77,9 @@ impl UnilateralState {
         self.share_margins(here, reaction, at.t, margins)
     }
 
-    /// Whether a contact slips in two directions so slowly that errors of the rates of coordinates, here of each of them, decide where to, and is braked: where
-    /// `memory` was asked about margins last. `faster` tells which contacts have slipped faster since they began to, and is kept up to date: what has just begun
-    /// to slip from rest is slow as well.
+    /// Whether a contact that slips in two directions is braked, and so slow that `error`, that of the rate of each coordinate, decides its direction. The state is
+    /// the one at which margins were last computed with `memory`. `faster` marks the contacts that have slipped faster since they began to slip, and is updated: a
+    /// contact that has just begun to slip from rest is slow as well.
     pub fn may_fade<V: Vector, M: Vector>(
         &self,
         memory: &ContactMemory<V, M>,

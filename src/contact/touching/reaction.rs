@@ -48,7 +48,7 @@ pub(super) struct OpenEquations {
 }
 
 impl Reaction {
-    /// Of forces that are known.
+    /// The reaction if the forces are known.
     pub(in crate::contact) fn from_known_forces(a: Vec<f64>, forces: Vec<[f64; 2]>) -> Self {
         let mut reaction = Self::default();
         reaction.reset(&a, forces.len());
@@ -93,7 +93,7 @@ pub(crate) struct ContactMemory<V, M> {
     /// Whether forces are known, and of what state of the contacts.
     is_evaluated: bool,
     evaluated_for: StateOfContacts,
-    /// Of time stepping.
+    /// The forces of a step of time stepping.
     forces_of_step: ForcesOfStep<M>,
 }
 
@@ -304,11 +304,11 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
         is_any_known
     }
 
-    /// Of what leans on a contact, where it stands among the closed ones and its share of the normal force.
+    /// The place among the closed contacts of what the contact at this place carries, and its share of the normal force.
     fn carried(&self, touching: &UnilateralState, place: usize) -> Option<(usize, f64)> {
         let next = self.closed.get(place + 1)?;
-        let leans = touching.carrier[*next] == Some(self.closed[place]);
-        leans.then(|| (place + 1, self.ratios[place + 1]))
+        let is_carried = touching.carrier[*next] == Some(self.closed[place]);
+        is_carried.then(|| (place + 1, self.ratios[place + 1]))
     }
 
     /// The contact that its own friction would press the more the more it is pressed, if there is one.
@@ -341,7 +341,7 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
             let k = self.closed[place];
             let turns = part == 1 && touching.carrier[k].is_some() && !touching.across[k];
             let own = self.entry(2 * place + 1, 2 * place + 1);
-            // The contact that it leans on stands before it.
+            // The contact that carries it comes before it.
             let of_carrier = if turns {
                 self.entry(2 * place - 2, 2 * place - 2)
             } else {
@@ -380,8 +380,8 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
                     0 => {
                         let own = column(0) + self.ratios[other] * column(1);
                         self.carried(touching, other)
-                            .map_or(own, |(leaning, share)| {
-                                own + share * self.entry(row, 2 * leaning + 1)
+                            .map_or(own, |(carried, share)| {
+                                own + share * self.entry(row, 2 * carried + 1)
                             })
                     }
                     _ => column(1),
@@ -414,8 +414,8 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
             found[place][part] += value;
             if part == 0 {
                 found[place][1] += self.ratios[place] * value;
-                if let Some((leaning, share)) = self.carried(touching, place) {
-                    found[leaning][1] += share * value;
+                if let Some((carried, share)) = self.carried(touching, place) {
+                    found[carried][1] += share * value;
                 }
             }
         }

@@ -63,7 +63,7 @@ pub(crate) struct Settled {
     pub modes: Vec<Mode>,
     /// Their forces along normal and tangent. Where a load may be shared in several ways, they are shared in one that every contact allows.
     pub forces: Vec<[f64; 2]>,
-    /// Of each guide the size of the terms of its reaction, in N, and 0 of other contacts.
+    /// The size of the terms of the reaction of each guide, in N; 0 for other contacts.
     pub sizes_of_guides: Vec<f64>,
     /// Contacts that share their load in another way than by the rule for undetermined forces, (E79), although the motion depends on it.
     pub shared_otherwise: Vec<usize>,
@@ -323,7 +323,7 @@ impl UnilateralState {
         Ok(braked.map(|k| (k, Mode::Sticks)))
     }
 
-    /// These states, but open for those of some contacts that press no more than rounding, and for what leans on these.
+    /// These states, with those of some contacts opened that press no more than rounding, and with those opened that these carry.
     pub fn without_unpressed<S: System>(
         &self,
         system: &S,
@@ -370,7 +370,7 @@ impl UnilateralState {
         }
     }
 
-    /// Opens what leans on an open contact.
+    /// Opens what an open contact carries.
     fn copy_openings_from_carriers(&self, modes: &mut [Mode]) {
         for (k, on) in self.carrier.iter().enumerate() {
             if on.is_some_and(|on| modes[on] == Mode::Open) {
@@ -439,7 +439,7 @@ impl<'a> Settling<'a> {
         own.map(|(_, mode)| *mode)
     }
 
-    /// Where among the contacts what one leans on stands: before it.
+    /// The place of the contact that carries the one at this place, if there is one: the place before it.
     fn carrier(&self, place: usize) -> Option<usize> {
         self.touching.carrier[self.asked[place]].map(|_| place - 1)
     }

@@ -49,7 +49,7 @@ impl UnilateralState {
         for (unknown, (place, _)) in equations.unknowns.iter().enumerate() {
             shares[equations.closed[*place]] |= of_unit.iter().any(|own| own[unknown] != 0.0);
         }
-        // What leans on a contact is limited by its normal force, and both tangents of a contact by one.
+        // The normal force of a contact limits what it carries, and friction along both of its tangents.
         for (k, on) in self.carrier.iter().enumerate() {
             if let Some(on) = *on {
                 shares[k] |= shares[on];

@@ -16,7 +16,7 @@
 use std::vec::Vec;
 
 use super::super::revolution::{SHARE_OF_WAY, Scaling, Triple, corrected_right_side, way_to_edge};
-use super::{Part, Problem};
+use super::{Disc, Part, Problem};
 use crate::implicit::lu::Lu;
 
 /// The most steps of the interior-point method; some 12 are usual.
@@ -92,13 +92,13 @@ impl Interior {
                     places: [i; 3],
                     dimension: 1,
                 }),
-                Part::Disc {
+                Part::Disc(Disc {
                     places,
                     count,
                     on: Some(on),
                     friction,
-                    known_normal,
-                } if known_normal == 0.0 && friction > 0.0 => {
+                    known_normal: 0.0,
+                }) if friction > 0.0 => {
                     let Some(cone) = self.cones.iter_mut().find(|cone| cone.places[0] == on) else {
                         return false;
                     };
@@ -108,7 +108,7 @@ impl Interior {
                     cone.places[1..].copy_from_slice(&places);
                     cone.dimension = 1 + count;
                 }
-                Part::Disc { .. } => return false,
+                Part::Disc(_) => return false,
             }
         }
         if self.cones.iter().map(|cone| cone.dimension).sum::<usize>() != n {
@@ -118,12 +118,12 @@ impl Interior {
         self.force_units
             .extend(problem.units.iter().map(|unit| 1.0 / unit.sqrt()));
         for part in &problem.parts {
-            if let Part::Disc {
+            if let Part::Disc(Disc {
                 places,
                 on: Some(on),
                 friction,
                 ..
-            } = *part
+            }) = *part
             {
                 self.force_units[on] = self.force_units[places[0]] / friction;
             }

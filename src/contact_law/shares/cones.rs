@@ -76,66 +76,18 @@ pub(super) fn solve(
     work: &mut [f64],
     (undetermined, limits): (&mut [f64], &mut [Option<Limit>]),
 ) -> Option<SharedMargin> {
-    let free = groups.len();
-    let of_contact = |k: usize| &by[PARTS * free * k..][..PARTS * free];
-    let members = || (0..sharers.len()).filter(|k| is_in(of_contact(*k), groups, group));
-    let unit = members().map(|k| sharers[k].size()).fold(0.0, f64::max);
-    if !unit.is_finite() {
-        return None;
+    let group = Group::new(sharers, (by, groups, group))?;
+    let unit = group.unit;
+    let mut programme = Programme::new(sharers.len() + 2, group.unknowns(), work);
+    group.put_units(programme.units);
+    if let Some((contact, slip, value)) = group.put_smooth(&mut programme) {
+        limits[contact] = Some(Limit::Friction(slip));
+        return Some(SharedMargin {
+            value,
+            residual: 0.0,
+        });
     }
-    let unit = if unit > 0.0 { unit } else { 1.0 };
-    let columns = || (0..free).filter(|i| groups[*i] == group);
-    let n = 1 + columns().count();
-    let mut programme = Programme::new(sharers.len() + 2, n, work);
-    // Undetermined forces are multiples of what adds the unit of force somewhere.
-    for (column, i) in columns().enumerate() {
-        let most = members().flat_map(|k| [0, 1, 2].map(|part| by[(PARTS * k + part) * free + i]));
-        let most = most.fold(0.0_f64, |most, x| most.max(x.abs()));
-        programme.units[column] = if most > 0.0 { 1.0 / most } else { 0.0 };
-    }
-    // The force of a contact along its normal (0) or a tangent, as a row of coefficients and a constant.
-    let put_force = |k: usize, part: usize, units: &[f64], row: &mut [f64]| {
-        for (column, i) in columns().enumerate() {
-            row[column] = units[column] * by[(PARTS * k + part) * free + i];
-        }
-        row[n - 1] = 0.0;
-        row[n] = sharers[k].force(part) / unit;
-    };
-    for k in members().filter(|k| sharers[*k].is_smooth()) {
-        for part in [1, 2] {
-            let (row, units) = programme.next_equation();
-            put_force(k, part, units, row);
-            let depends = row[..n].iter().any(|x| *x != 0.0);
-            let left = programme.take_equation();
-            if depends && left.abs() > MORE_THAN_ROUNDING {
-                // Its friction would have to hold, and there is none.
-                let mut direction = [0.0; 2];
-                direction[part - 1] = left.signum();
-                limits[k] = Some(Limit::Friction(direction));
-                return Some(SharedMargin {
-                    value: -left.abs() * unit,
-                    residual: 0.0,
-                });
-            }
-        }
-    }
-    for k in members() {
-        let friction = sharers[k].friction();
-        let presses = sharers[k].presses && of_contact(k)[..free].iter().any(|x| *x != 0.0);
-        if friction.is_none() && !presses {
-            continue;
-        }
-        let (rows, units) = programme.next_cone();
-        let width = n + 1;
-        put_force(k, 0, units, &mut rows[..width]);
-        rows[n - 1] = -1.0;
-        if let Some(friction) = friction {
-            rows[..width].iter_mut().for_each(|x| *x *= friction);
-            put_force(k, 1, units, &mut rows[width..2 * width]);
-            put_force(k, 2, units, &mut rows[2 * width..]);
-        }
-        programme.take_cone(k);
-    }
+    group.put_cones(&mut programme);
     programme.close();
     let residual = programme.run()?;
     let margin = programme.margin;
@@ -143,7 +95,7 @@ pub(super) fn solve(
         return None;
     }
     programme.put_forces();
-    for (column, i) in columns().enumerate() {
+    for (column, i) in group.columns().enumerate() {
         undetermined[i] = programme.units[column] * programme.forces[column] * unit;
     }
     for cone in 0..programme.cones - 2 {
@@ -157,6 +109,127 @@ pub(super) fn solve(
         },
         residual: residual * unit,
     })
+}
+
+/// The contacts of a group, with the undetermined forces that they share.
+struct Group<'a> {
+    sharers: &'a [Sharer],
+    /// By how much each force of a contact changes with each undetermined force.
+    by: &'a [f64],
+    /// The group of each undetermined force, and this group.
+    groups: &'a [usize],
+    group: usize,
+    /// The unit of forces.
+    unit: f64,
+}
+
+impl<'a> Group<'a> {
+    /// A group whose forces are finite.
+    fn new(
+        sharers: &'a [Sharer],
+        (by, groups, group): (&'a [f64], &'a [usize], usize),
+    ) -> Option<Self> {
+        let mut group = Self {
+            sharers,
+            by,
+            groups,
+            group,
+            unit: 1.0,
+        };
+        let sizes = group.members().map(|k| sharers[k].size());
+        let unit = sizes.fold(0.0, f64::max);
+        if unit > 0.0 {
+            group.unit = unit;
+        }
+        unit.is_finite().then_some(group)
+    }
+
+    fn of_contact(&self, k: usize) -> &[f64] {
+        let free = self.groups.len();
+        &self.by[PARTS * free * k..][..PARTS * free]
+    }
+
+    /// Its contacts.
+    fn members(&self) -> impl Iterator<Item = usize> {
+        let is_member = |k: &usize| is_in(self.of_contact(*k), self.groups, self.group);
+        (0..self.sharers.len()).filter(is_member)
+    }
+
+    /// Its undetermined forces.
+    fn columns(&self) -> impl Iterator<Item = usize> {
+        (0..self.groups.len()).filter(|i| self.groups[*i] == self.group)
+    }
+
+    /// The number of unknowns: the undetermined forces, and the margin.
+    fn unknowns(&self) -> usize {
+        1 + self.columns().count()
+    }
+
+    /// Undetermined forces are multiples of what adds the unit of force somewhere.
+    fn put_units(&self, units: &mut [f64]) {
+        let (by, free) = (self.by, self.groups.len());
+        for (column, i) in self.columns().enumerate() {
+            let members = self.members();
+            let most =
+                members.flat_map(|k| [0, 1, 2].map(|part| by[(PARTS * k + part) * free + i]));
+            let most = most.fold(0.0_f64, |most, x| most.max(x.abs()));
+            units[column] = if most > 0.0 { 1.0 / most } else { 0.0 };
+        }
+    }
+
+    /// Writes the force of a contact along its normal (0) or a tangent, as a row of coefficients and a constant.
+    fn put_force(&self, (k, part): (usize, usize), units: &[f64], row: &mut [f64]) {
+        let (n, free) = (self.unknowns(), self.groups.len());
+        for (column, i) in self.columns().enumerate() {
+            row[column] = units[column] * self.by[(PARTS * k + part) * free + i];
+        }
+        row[n - 1] = 0.0;
+        row[n] = self.sharers[k].force(part) / self.unit;
+    }
+
+    /// Contacts without friction hold nothing along their tangents. If one would have to, it is returned with the direction of its slip and the margin that is
+    /// missing, in N.
+    fn put_smooth(&self, programme: &mut Programme<'_>) -> Option<(usize, [f64; 2], f64)> {
+        let n = self.unknowns();
+        for k in self.members().filter(|k| self.sharers[*k].is_smooth()) {
+            for part in [1, 2] {
+                let (row, units) = programme.next_equation();
+                self.put_force((k, part), units, row);
+                let depends = row[..n].iter().any(|x| *x != 0.0);
+                let left = programme.take_equation();
+                if depends && left.abs() > MORE_THAN_ROUNDING {
+                    // Its friction would have to hold, and there is none.
+                    let mut direction = [0.0; 2];
+                    direction[part - 1] = left.signum();
+                    return Some((k, direction, -left.abs() * self.unit));
+                }
+            }
+        }
+        None
+    }
+
+    /// The cones of the contacts that press or have friction.
+    fn put_cones(&self, programme: &mut Programme<'_>) {
+        let (n, free) = (self.unknowns(), self.groups.len());
+        for k in self.members() {
+            let friction = self.sharers[k].friction();
+            let by_normal = &self.of_contact(k)[..free];
+            let presses = self.sharers[k].presses && by_normal.iter().any(|x| *x != 0.0);
+            if friction.is_none() && !presses {
+                continue;
+            }
+            let (rows, units) = programme.next_cone();
+            let width = n + 1;
+            self.put_force((k, 0), units, &mut rows[..width]);
+            rows[n - 1] = -1.0;
+            if let Some(friction) = friction {
+                rows[..width].iter_mut().for_each(|x| *x *= friction);
+                self.put_force((k, 1), units, &mut rows[width..2 * width]);
+                self.put_force((k, 2), units, &mut rows[2 * width..]);
+            }
+            programme.take_cone(k);
+        }
+    }
 }
 
 /// `slack = b + A x ∈ K`, with `x` the undetermined forces and the margin s, which is to be great.

@@ -136,65 +136,28 @@ impl OpenStates {
         let count = parts.layout.contacts();
         let holds_more = (0..count)
             .any(|k| self.motion[k].is_none() && parts.static_friction(k) > parts.friction(k));
-        let sticking = |mode: &Mode| {
-            let all = mode.motion.iter();
-            all.filter(|motion| **motion == Motion::Sticks).count()
+        let mut found = Possible {
+            question: self,
+            parts,
+            holds_more,
+            best: None,
+            several: None,
         };
-        let mut best: Option<(Mode, Each)> = None;
-        let mut several = None;
         let mut unknown = None;
-        let mut look = |mode: Mode, friction_forces: Each| {
-            // That a contact slides may be known without its direction.
-            let is_asked = |k: usize| {
-                let slides =
-                    self.motion[k] == Some(Motion::SlidesAlong) && parts.layout.has_second(k);
-                slides && self.slip_direction[k] == 0.0 && self.slip_direction[k + 1] == 0.0
-            };
-            let accelerates_in_its_direction = |k: usize| {
-                let is_known = self.motion[k].is_some() && !is_asked(k);
-                is_known || parts.accelerates_in_its_direction(&mode, &friction_forces, k)
-            };
-            if !parts.admits(&mode, &friction_forces, self.turned)
-                || !(0..count).all(accelerates_in_its_direction)
-            {
-                return;
-            }
-            let Some((known, other)) = &best else {
-                best = Some((mode, friction_forces));
-                return;
-            };
-            let more = sticking(&mode).cmp(&sticking(known));
-            if parts.same(&friction_forces, other) {
-                if more.is_gt() {
-                    best = Some((mode, friction_forces));
-                }
-            } else if holds_more && more.is_ne() {
-                if more.is_gt() {
-                    best = Some((mode, friction_forces));
-                    several = None;
-                }
-            } else {
-                let differs = |k: &usize| {
-                    known.motion[*k] != mode.motion[*k] || known.press[*k] != mode.press[*k]
-                };
-                several = several.or((0..count).find(differs)).or(Some(0));
-            }
-        };
         self.each(parts.layout, &mut |mode| {
-            let is_open = |k: &usize| {
-                let slides = mode.motion[*k] == Motion::SlidesAlong && parts.layout.has_second(*k);
-                slides && mode.slip_direction[*k] == 0.0 && mode.slip_direction[*k + 1] == 0.0
-            };
+            let is_open = |k: &usize| has_open_direction(&mode, parts.layout, *k);
             let mut open = PerContact::new((0..count).filter(is_open).count(), 0);
             for (place, k) in open.iter_mut().zip((0..count).filter(is_open)) {
                 *place = k;
             }
             let sliding = (0..count).find(|k| mode.motion[*k] != Motion::Sticks);
-            let known = parts.each_slip_direction(mode, &open, &mut look);
+            let look = &mut |mode, friction_forces| found.look(mode, friction_forces);
+            let known = parts.each_slip_direction(mode, &open, look);
             if !known {
                 unknown = sliding;
             }
         });
+        let Possible { best, several, .. } = found;
         // With normal reactions that friction does not change, the accelerations minimize a strictly convex function, so there are no others.
         // With more friction at rest this holds for what sticks.
         let is_proved = |(mode, _): &(Mode, Each)| {
@@ -253,6 +216,73 @@ impl OpenStates {
             let same_side = press.is_none_or(|press| press == mode.press[contact]);
             excluded == contact && motion == mode.motion[contact] && same_side
         })
+    }
+}
+
+/// Whether a contact slides in a direction that is not known yet.
+fn has_open_direction(mode: &Mode, layout: Layout, k: usize) -> bool {
+    let slides = mode.motion[k] == Motion::SlidesAlong && layout.has_second(k);
+    slides && mode.slip_direction[k] == 0.0 && mode.slip_direction[k + 1] == 0.0
+}
+
+/// The motions that are possible, of those that an enumeration examines.
+struct Possible<'a> {
+    question: &'a OpenStates,
+    parts: &'a Parts<'a>,
+    /// Whether a contact in question holds more at rest than while it slides.
+    holds_more: bool,
+    /// The motion that is found, or of several that with the most contacts that stick.
+    best: Option<(Mode, Each)>,
+    /// A contact that moves otherwise in another one.
+    several: Option<usize>,
+}
+
+impl Possible<'_> {
+    /// Examines one motion.
+    fn look(&mut self, mode: Mode, friction_forces: Each) {
+        let Self {
+            question, parts, ..
+        } = self;
+        let count = parts.layout.contacts();
+        // That a contact slides may be known without its direction.
+        let is_asked = |k: usize| {
+            let slides =
+                question.motion[k] == Some(Motion::SlidesAlong) && parts.layout.has_second(k);
+            slides && question.slip_direction[k] == 0.0 && question.slip_direction[k + 1] == 0.0
+        };
+        let accelerates_in_its_direction = |k: usize| {
+            let is_known = question.motion[k].is_some() && !is_asked(k);
+            is_known || parts.accelerates_in_its_direction(&mode, &friction_forces, k)
+        };
+        if !parts.admits(&mode, &friction_forces, question.turned)
+            || !(0..count).all(accelerates_in_its_direction)
+        {
+            return;
+        }
+        let Some((known, other)) = &self.best else {
+            self.best = Some((mode, friction_forces));
+            return;
+        };
+        let sticking = |mode: &Mode| {
+            let all = mode.motion.iter();
+            all.filter(|motion| **motion == Motion::Sticks).count()
+        };
+        let more = sticking(&mode).cmp(&sticking(known));
+        if parts.same(&friction_forces, other) {
+            if more.is_gt() {
+                self.best = Some((mode, friction_forces));
+            }
+        } else if self.holds_more && more.is_ne() {
+            if more.is_gt() {
+                self.best = Some((mode, friction_forces));
+                self.several = None;
+            }
+        } else {
+            let differs = |k: &usize| {
+                known.motion[*k] != mode.motion[*k] || known.press[*k] != mode.press[*k]
+            };
+            self.several = (self.several).or((0..count).find(differs)).or(Some(0));
+        }
     }
 }
 

@@ -345,11 +345,11 @@ pub(in crate::friction) struct Shared {
     undetermined: Each,
     /// The margin of each contact that shares forces with others: by how much the normal reactions of all of them could be smaller.
     pub margin: PerContact<Option<f64>>,
-    /// By how much a greater margin may be possible.
+    /// A bound on how much larger the margin could be.
     residual: Each,
     /// How each contact limits the margin.
     pub limit: PerContact<Option<Limit>>,
-    /// With which others it shares: contacts with the same number.
+    /// The number of the group of contacts that share their load; it is the same for all of them.
     pub group: PerContact<usize>,
 }
 

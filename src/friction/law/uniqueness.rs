@@ -2,7 +2,7 @@
 //!
 //! Let `n` be the normal forces |N| of all contacts. With given `n` the law is that of forces `F` with `|Fᵢ| ≤ bᵢ nᵢ`, b the coefficients,
 //! under which `½ F·W F + w₀·F` is least, where `W` are the slip rates by unit forces, symmetric and positive semidefinite. The accelerations
-//! that go with it are unique. If friction forces change no `n`, this is all.
+//! that belong to them are unique. If friction forces do not change `n`, this completes the proof.
 //!
 //! Otherwise `n` is a fixed point of `n ↦ |N₀ + K F(n)|`. If this is a contraction in any norm there is one fixed point (S. Banach), and with it
 //! one motion. While some contacts `S` at rest stick and others `L` slide, `δF_L` follows `±b δn`, and `δF_S = −W_SS⁻¹ W_SL δF_L`.

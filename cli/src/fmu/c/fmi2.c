@@ -25,6 +25,9 @@ static Outcome setInputRates(Unit *unit, const unsigned *references, size_t coun
     for (size_t k = 0; k < count; ++k) {
         const unsigned i = references[k];
         if (i < AT_INPUTS || i >= AT_OUTPUTS) return unknown(unit, i);
+#ifdef HAS_RUN
+        return say(unit, FAILED, "the inputs of a machine with contacts or guides keep their values during a step");
+#endif
         if (!unit->is_co_simulation || orders[k] != 1 || !isFinite(values[k]))
             return say(unit, FAILED, "only the first time derivative of an input can be set, in co-simulation, and to a finite number");
         unit->now.input_rates[i - AT_INPUTS] = values[k];
@@ -52,7 +55,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     return instantiate(instanceName, fmuGUID, reportOf2, environment, callback, loggingOn, fmuType == fmi2CoSimulation);
 }
 
-void fmi2FreeInstance(fmi2Component c) { free(c); }
+void fmi2FreeInstance(fmi2Component c) { discard(c); }
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance, fmi2Real startTime,
                                fmi2Boolean stopTimeDefined, fmi2Real stopTime) {
@@ -119,13 +122,17 @@ NO_VARIABLES(Boolean)
 NO_VARIABLES(String)
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
+    if (!SAVES) return absent(c, "fmi2GetFMUstate");
     if (!*FMUstate) *FMUstate = malloc(sizeof(Saved));
     if (!*FMUstate) return (fmi2Status)say(c, FAILED, "there is not enough memory for the state");
     save(c, *FMUstate);
     return fmi2OK;
 }
 
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) { return (fmi2Status)restore(c, FMUstate); }
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) {
+    if (!SAVES) return absent(c, "fmi2SetFMUstate");
+    return (fmi2Status)restore(c, FMUstate);
+}
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
     (void)c;
@@ -135,18 +142,21 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size) {
-    (void)c, (void)FMUstate;
+    (void)FMUstate;
+    if (!SAVES) return absent(c, "fmi2SerializedFMUstateSize");
     *size = sizeof(Saved);
     return fmi2OK;
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte serializedState[], size_t size) {
+    if (!SAVES) return absent(c, "fmi2SerializeFMUstate");
     if (size < sizeof(Saved)) return (fmi2Status)say(c, FAILED, "the state needs more bytes than the given array has");
     memcpy(serializedState, FMUstate, sizeof(Saved));
     return fmi2OK;
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedState[], size_t size, fmi2FMUstate *FMUstate) {
+    if (!SAVES) return absent(c, "fmi2DeSerializeFMUstate");
     if (size != sizeof(Saved) || memcmp(serializedState, TOKEN, sizeof TOKEN))
         return (fmi2Status)say(c, FAILED, "the bytes are not a state of this machine");
     if (!*FMUstate) *FMUstate = malloc(sizeof(Saved));

@@ -69,7 +69,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String instanceName, fmi3Stri
     return NULL;
 }
 
-void fmi3FreeInstance(fmi3Instance instance) { free(instance); }
+void fmi3FreeInstance(fmi3Instance instance) { discard(instance); }
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined, fmi3Float64 tolerance,
                                        fmi3Float64 startTime, fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
@@ -195,6 +195,7 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
+    if (!SAVES) return absent(instance, "fmi3GetFMUState");
     if (!*FMUState) *FMUState = malloc(sizeof(Saved));
     if (!*FMUState) return (fmi3Status)say(instance, FAILED, "there is not enough memory for the state");
     save(instance, *FMUState);
@@ -202,6 +203,7 @@ fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
 }
 
 fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
+    if (!SAVES) return absent(instance, "fmi3SetFMUState");
     return (fmi3Status)restore(instance, FMUState);
 }
 
@@ -213,18 +215,21 @@ fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
-    (void)instance, (void)FMUState;
+    (void)FMUState;
+    if (!SAVES) return absent(instance, "fmi3SerializedFMUStateSize");
     *size = sizeof(Saved);
     return fmi3OK;
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState, fmi3Byte serializedState[], size_t size) {
+    if (!SAVES) return absent(instance, "fmi3SerializeFMUState");
     if (size < sizeof(Saved)) return (fmi3Status)say(instance, FAILED, "the state needs more bytes than the given array has");
     memcpy(serializedState, FMUState, sizeof(Saved));
     return fmi3OK;
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[], size_t size, fmi3FMUState *FMUState) {
+    if (!SAVES) return absent(instance, "fmi3DeserializeFMUState");
     if (size != sizeof(Saved) || memcmp(serializedState, TOKEN, sizeof TOKEN))
         return (fmi3Status)say(instance, FAILED, "the bytes are not a state of this machine");
     if (!*FMUState) *FMUState = malloc(sizeof(Saved));

@@ -31,8 +31,25 @@ enum {
     AT_FACTS,
     AT_EVENTS = AT_FACTS + FACTS,
     /* How many times each event has happened, an integer. */
-    AT_COUNTS = AT_EVENTS + EVENTS
+    AT_COUNTS = AT_EVENTS + EVENTS,
+    /* Gap, normal force, friction and slip of each contact, which a unit with a run has. */
+    AT_CONTACTS = AT_COUNTS + EVENTS,
+    OF_CONTACTS = 4 * CONTACTS
 };
+
+#ifdef HAS_RUN
+/*
+ * The run of a machine whose motion depends on which contacts are closed and on what sticks: that of the runtime of lagrangian, compiled from Rust. Each
+ * call answers WELL, WARNED or FAILED, and stores what there is to say. A run changes its inputs before it goes on, where they are others than before.
+ */
+typedef struct Run Run;
+int unitRunBegin(Run **to, const double *parameters, const double *inputs, double *states, double t, double tolerance, char *message,
+                 size_t size);
+int unitRunAdvance(Run *run, const double *inputs, double until, double *t, double *states, char *message, size_t size);
+int unitRunObserve(Run *run, const double *inputs, double *accelerations, double *multipliers, double *potential, double *contacts,
+                   char *message, size_t size);
+void unitRunEnd(Run *run);
+#endif
 
 /* A state violates its constraints if a residual exceeds this fraction of the size of its terms. */
 #define LEFT 1e-10
@@ -108,11 +125,16 @@ struct Unit {
     int bends;
     /* The kind of unit; whether the importer handles events, whether a step may end at an event, and whether the last one did. */
     int is_co_simulation, is_logging, has_event_mode, may_stop, has_stopped;
+#ifdef HAS_RUN
+    /* The run, once it has begun, and what it says of the present state. */
+    Run *run;
+    double multipliers[CONSTRAINTS + 1], contacts[OF_CONTACTS + 1], potential;
+#endif
     Report *report;
     void *environment;
     void *callback;
     char name[64];
-    char message[256];
+    char message[1024];
 };
 
 /* A saved state: the machine that it belongs to, and the bytes. */
@@ -121,8 +143,18 @@ typedef struct {
     State state;
 } Saved;
 
+/* Ends the run of a unit, if it has begun. */
+static void endRun(Unit *unit) {
+#ifdef HAS_RUN
+    unitRunEnd(unit->run);
+    unit->run = NULL;
+#endif
+    unit->is_evaluated = 0;
+}
+
 static void restart(Unit *unit) {
     State *now = &unit->now;
+    endRun(unit);
     memset(now, 0, sizeof *now);
     for (int i = 0; i < PARAMETERS; ++i) now->parameters[i] = PARAMETER_DEFAULTS[i];
     for (int i = 0; i < INPUTS; ++i) now->inputs[i] = INPUT_DEFAULTS[i];
@@ -171,18 +203,46 @@ static int differentiate(Unit *unit, double t, const double *states, double *to)
     return 0;
 }
 
+#ifdef HAS_RUN
+/* Begins the run at the present state, if it has not begun. The state of its beginning, which impacts and constraints may have changed, becomes that of
+   the unit only once the start is settled. */
+static Outcome beginRun(Unit *unit) {
+    State *now = &unit->now;
+    double states[STATES + 1];
+    prepare(unit);
+    if (unit->run) return WELL;
+    memcpy(states, now->states, sizeof states);
+    const int begun = unitRunBegin(&unit->run, now->parameters, now->inputs, states, now->time, now->tolerance, unit->message,
+                                   sizeof unit->message);
+    if (begun != FAILED && now->mode > INITIALIZING) memcpy(now->states, states, sizeof states);
+    return (Outcome)begun;
+}
+#endif
+
 /* The accelerations at the current state. Returns 0 on success. */
 static int evaluate(Unit *unit) {
     prepare(unit);
     if (unit->is_evaluated) return unit->singular;
+#ifdef HAS_RUN
+    unit->singular = 1;
+    if (beginRun(unit) == FAILED) return unit->singular;
+    if (unitRunObserve(unit->run, unit->now.inputs, unit->accelerations, unit->multipliers, &unit->potential, unit->contacts,
+                       unit->message, sizeof unit->message) == FAILED)
+        return unit->singular;
+    unit->singular = 0;
+#else
     double to[STATES + 1];
     unit->singular = differentiate(unit, unit->now.time, unit->now.states, to);
     memcpy(unit->accelerations, to + COORDINATES, COORDINATES * sizeof *to);
+#endif
     unit->is_evaluated = 1;
     return unit->singular;
 }
 
 static Outcome withoutAccelerations(Unit *unit, Outcome outcome) {
+#ifdef HAS_RUN
+    return say(unit, outcome, unit->message);
+#endif
     const int i = unit->singular - 1;
     snprintf(unit->message, sizeof unit->message, "at t = %.17g s there is no acceleration of %s: its inertia vanishes, or a "
              "number is not finite", unit->now.time, i >= 0 && i < COORDINATES ? COORDINATE_NAMES[i] : "the machine");
@@ -233,8 +293,12 @@ static Outcome get(Unit *unit, const unsigned *references, size_t count, double 
             to[k] = now->inputs[i - AT_INPUTS];
         } else if (i >= AT_MULTIPLIERS && i < AT_KINETIC_ENERGY) {
             if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+#ifdef HAS_RUN
+            to[k] = unit->multipliers[i - AT_MULTIPLIERS];
+#else
             if (unitMultipliers(&unit->prepared, now->time, q, v, u, several)) return withoutAccelerations(unit, DISCARDED);
             to[k] = several[i - AT_MULTIPLIERS];
+#endif
         } else if (i < AT_MULTIPLIERS) {
             if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
             unitOutputs(&unit->prepared, now->time, q, v, u, a, several);
@@ -242,13 +306,23 @@ static Outcome get(Unit *unit, const unsigned *references, size_t count, double 
         } else if (i == AT_KINETIC_ENERGY) {
             to[k] = unitKineticEnergy(&unit->prepared, now->time, q, v, u);
         } else if (i == AT_POTENTIAL_ENERGY) {
+#ifdef HAS_RUN
+            if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+            to[k] = unit->potential;
+#else
             to[k] = unitPotentialEnergy(&unit->prepared, now->time, q, v, u);
+#endif
         } else if (i < AT_EVENTS) {
             unitFacts(&unit->prepared, now->time, q, v, u, a, several);
             to[k] = several[i - AT_FACTS];
         } else if (i < AT_COUNTS) {
             watch(unit, now->time, now->states, several);
             to[k] = several[i - AT_EVENTS];
+#ifdef HAS_RUN
+        } else if (i >= AT_CONTACTS && i < AT_CONTACTS + OF_CONTACTS) {
+            if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+            to[k] = unit->contacts[i - AT_CONTACTS];
+#endif
         } else {
             return unknown(unit, i);
         }
@@ -277,6 +351,11 @@ static Outcome set(Unit *unit, const unsigned *references, size_t count, const d
             snprintf(unit->message, sizeof unit->message, "the value of the variable with the reference %u is not finite", i);
             return say(unit, FAILED, unit->message);
         }
+#ifdef HAS_RUN
+        if (now->mode <= INITIALIZING) endRun(unit);
+        else if (i < AT_INPUTS)
+            return say(unit, FAILED, "the parameters of a machine with contacts or guides are fixed once it has been initialized");
+#endif
         if (is_state) {
             now->states[i - AT_STATES] = values[k];
             now->is_set[i - AT_STATES] = 1;
@@ -294,6 +373,7 @@ static Outcome set(Unit *unit, const unsigned *references, size_t count, const d
 }
 
 static void setTime(Unit *unit, double time) {
+    endRun(unit);
     unit->now.time = time;
     unit->is_evaluated = 0;
 }
@@ -694,6 +774,12 @@ static int project(Unit *unit, int is_start) {
 
 /* Projects a start that violates the constraints onto them, and reports that. */
 static Outcome projectStart(Unit *unit) {
+#ifdef HAS_RUN
+    endRun(unit);
+    const Outcome begun = beginRun(unit);
+    if (begun != WELL) say(unit, begun, unit->message);
+    return begun == FAILED ? FAILED : WELL;
+#endif
     double before[STATES + 1], most = 0.0;
     prepare(unit);
     memcpy(before, unit->now.states, sizeof before);
@@ -811,6 +897,13 @@ static Outcome differentiateBack(Unit *unit, const unsigned *unknowns, size_t un
     return WELL;
 }
 
+/* Whether states can be saved: a run is more than the numbers of a state. */
+#ifdef HAS_RUN
+enum { SAVES = 0 };
+#else
+enum { SAVES = 1 };
+#endif
+
 static void save(const Unit *unit, Saved *to) {
     memset(to, 0, sizeof *to);
     memcpy(to->token, TOKEN, sizeof TOKEN);
@@ -843,6 +936,11 @@ static Unit *instantiate(const char *name, const char *token, Report *report, vo
     }
     restart(unit);
     return unit;
+}
+
+static void discard(Unit *unit) {
+    if (unit) endRun(unit);
+    free(unit);
 }
 
 static Outcome begin(Unit *unit, int has_tolerance, double tolerance, double start) {
@@ -1436,6 +1534,13 @@ static Outcome integrate(Unit *unit, double until) {
     if (!isFinite(until)) return say(unit, FAILED, "the end of the step is not finite");
     if (until < now->time) return say(unit, FAILED, "the step would end before it begins");
     prepare(unit);
+#ifdef HAS_RUN
+    if (beginRun(unit) == FAILED) return say(unit, FAILED, unit->message);
+    unit->is_evaluated = 0;
+    const int advanced = unitRunAdvance(unit->run, now->inputs, until, &now->time, now->states, unit->message, sizeof unit->message);
+    if (advanced != WELL) say(unit, (Outcome)advanced, unit->message);
+    return advanced == FAILED ? FAILED : WELL;
+#endif
     if (now->is_unsettled) {
         settleEvents(unit);
         checkFacts(unit);

@@ -1,7 +1,7 @@
-//! Numbers of single contacts: a function for each kind of contact, and the rows that say which contact has which, and of which arguments.
+//! The numbers of single contacts: a function for each kind of contact, and for each contact a row with its kind and its arguments.
 //!
-//! A machine with so many contacts has no functions for all of them together: the runtime calls those of kinds, one contact after the other. So the code of
-//! a contact is a row, and only kinds of contacts are compiled.
+//! A machine with many contacts has no functions for all of them together: the runtime calls the function of each contact's kind with the arguments in its row.
+//! Another contact of the same kind therefore adds a row and no code.
 
 use super::Emitter;
 use crate::layout::Layout;

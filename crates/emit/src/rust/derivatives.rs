@@ -129,6 +129,15 @@ impl Emitter<'_> {
         ];
         self.writer
             .signature("fn linearize", &arguments, Some(&result));
+        self.write_derivatives_by_state(&call);
+        self.writer.line("Ok(())");
+        self.writer.close("}");
+        self.writer.close("}");
+        self.impl_differentiate(&arguments, &call);
+    }
+
+    /// Writes the call, and the accelerations and their derivatives by the state from it.
+    fn write_derivatives_by_state(&mut self, call: &str) {
         self.writer.line(format!("let derivatives = {call}?;"));
         self.writer.line("*a = derivatives.accelerations;");
         for name in ["by_coordinates", "by_rates"] {
@@ -136,10 +145,6 @@ impl Emitter<'_> {
                 .line(format!("let rows = derivatives.{name}.as_flattened();"));
             self.writer.line(format!("{name}.copy_from_slice(rows);"));
         }
-        self.writer.line("Ok(())");
-        self.writer.close("}");
-        self.writer.close("}");
-        self.impl_differentiate(&arguments, &call);
     }
 
     /// Writes `Differentiate`: the same with the derivatives by further variables.
@@ -187,13 +192,7 @@ impl Emitter<'_> {
         arguments.push(format!("{values}: &mut [{f64}]"));
         self.writer
             .signature("fn differentiate", &arguments, Some(&result));
-        self.writer.line(format!("let derivatives = {call}?;"));
-        self.writer.line("*a = derivatives.accelerations;");
-        for name in ["by_coordinates", "by_rates"] {
-            self.writer
-                .line(format!("let rows = derivatives.{name}.as_flattened();"));
-            self.writer.line(format!("{name}.copy_from_slice(rows);"));
-        }
+        self.write_derivatives_by_state(call);
         if width > 0 {
             self.writer.open(format!(
                 "for (i, row) in by_variables.chunks_exact_mut({width}).take({n}).enumerate() {{"

@@ -315,18 +315,18 @@ impl Emitter<'_> {
 
     /// Writes the costs of a step by the series, by which a run chooses its method. They are estimates, for which one decimal suffices.
     fn row_of_costs(&mut self) {
-        let series = self.options.series.as_ref();
-        let accelerations = self.program.function(Role::Accelerations);
-        let (Some(series), Some(accelerations)) = (series, accelerations) else {
+        let Some(series) = self.options.series.as_ref() else {
             return;
         };
-        let [coarse, fine] = series.series().cost(accelerations.cost());
+        let Some([coarse, fine]) = series.series().cost(self.program) else {
+            return;
+        };
         let costs = Layout::Atom(format!("[{coarse:.1}, {fine:.1}]"));
         self.row("costs", "series_cost", &["p"], Some(costs));
-        if self.program.has_powers() != [false; 2] {
-            let powers = self.program.costs_of_powers();
-            let [of_evaluation, coarse, fine] =
-                (series.series()).cost_of_powers(accelerations.cost(), powers);
+        if self.program.has_powers() != [false; 2]
+            && let Some(costs) = series.series().cost_of_powers(self.program)
+        {
+            let [of_evaluation, coarse, fine] = costs;
             let costs = format!("[{of_evaluation:.1}, {coarse:.1}, {fine:.1}]");
             self.row("more", "powers_cost", &["p"], Some(Layout::Atom(costs)));
         }

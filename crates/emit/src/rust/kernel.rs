@@ -18,7 +18,7 @@ use crate::cut::{self, Cut, Piece};
 use crate::layout::{Layout, width};
 use lagrangian_program::{Function, Guard, Op, Reads, Role, Shape, Source};
 
-/// A function for speed: what the macro of the runtime is told about it.
+/// A fast function: the arguments of the macro of the runtime that writes it.
 pub(super) struct FastFunction {
     /// The documentation of the public function, or of the call.
     pub(super) docs: String,

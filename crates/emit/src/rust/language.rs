@@ -5,7 +5,7 @@ use lagrangian_symbolic::{self as symbolic, Rational};
 use super::Emitter;
 use crate::body::{Angle, ArrayElement, Expression as Text, Language, Loops, Precedence, Rounded};
 use crate::layout::{Layout, Writer};
-use crate::names::{Scope, flat};
+use crate::names::{Scope, flat, word};
 use lagrangian_program::{Contracted, EliminationStep, Guard, PackedOperation, Source};
 
 /// The Rust implementation of `Language`.
@@ -183,10 +183,7 @@ impl Language for Rust<'_> {
             .and_then(|rest| rest.strip_suffix(')'))
             .filter(|_| self.in_registers);
         let plain = inner.unwrap_or(angle).trim_start_matches("r#");
-        plain
-            .chars()
-            .map(|c| if c.is_alphanumeric() { c } else { '_' })
-            .collect()
+        word(plain, char::is_alphanumeric)
     }
 
     fn identifier(&self, scope: &mut Scope, name: &str) -> String {
@@ -285,26 +282,9 @@ impl Loops for Rust<'_> {
 
 /// The method of `Scalar` for a function.
 fn method(function: symbolic::Function) -> &'static str {
-    use symbolic::Function::*;
     match function {
-        Sin => "sin",
-        Cos => "cos",
-        Tan => "tan",
-        Asin => "asin",
-        Acos => "acos",
-        Atan => "atan",
-        Atan2 => "atan2",
-        Sinh => "sinh",
-        Cosh => "cosh",
-        Tanh => "tanh",
-        Exp => "exp",
-        Ln => "ln",
-        Sqrt => "sqrt",
-        Abs => "abs",
-        Sign => "sign",
-        Min => "min",
-        Max => "max",
-        Pow => "powf",
+        symbolic::Function::Pow => "powf",
+        other => other.name(),
     }
 }
 

@@ -231,3 +231,18 @@ fn a_machine_that_cannot_be_is_a_step_too_far() {
     assert!(refused.is_err(), "{refused:?}");
     assert_eq!(oscillator().parameters().len(), 3);
 }
+
+/// Squares of residuals that overflow, or vanish although the residuals do not, say nothing about a minimum.
+#[test]
+fn residuals_without_a_sum_of_squares_are_refused() {
+    let values: Vec<f64> = times()
+        .iter()
+        .map(|t| at(*t, TRUTH, None)[0].value)
+        .collect();
+    for (sigma, why) in [(1e-160, "beyond all numbers"), (1e200, "vanish")] {
+        let mut fit = fit(vec![(Quantity::Coordinate(0), values.clone())], vec![sigma]);
+        let refused = fit.search(&[32.0, 3.0, 0.2, -0.5]);
+        let said = format!("{refused:?}");
+        assert!(refused.is_err() && said.contains(why), "{said}");
+    }
+}

@@ -6,7 +6,7 @@ use lagrangian::{ContactImpact, ContactMode, ImpactLaw, ImpactOrder, State};
 use lagrangian_scalar::Dual;
 
 use super::{Change, NoDerivatives, Number, Passing, ROUNDING, ReportedImpact, zero};
-use crate::varied::{DualState, Phase, Sought};
+use crate::varied::{Acts, DualState, Phase, Sought, SoughtReaction};
 
 /// The penetration depth that would follow without an impact must be at least this many tolerances of the preceding
 /// gap. Below that the contact grazes, and it is not certain that the impact happens at all.
@@ -122,10 +122,12 @@ impl Passing<'_, '_> {
     ) -> Option<bool> {
         let still = self.moved(state, 0, 0.0, &vec![0.0; self.n]);
         self.place(still, 0, phase, |place| {
-            let mut apart = true;
+            // The friction of guides couples what they carry.
+            let mut apart = phase.sides.is_empty();
             for &k in contacts {
                 for part in [0, 1] {
-                    let (change, _) = place.respond(&[], place.row(2 * k + part))?;
+                    let one = [(2 * k + part, Dual::constant(1.0))];
+                    let change = place.respond(&[], &one, &[])?.change;
                     let by = |direction: usize| {
                         let terms = place.row(direction).iter().zip(&change);
                         terms.fold([0.0; 2], |[sum, size], (w, by)| {
@@ -222,6 +224,13 @@ impl Passing<'_, '_> {
         (hits, ended): (&[ReportedImpact], &[usize]),
     ) -> Result<Vec<Number>, (usize, &'static str)> {
         let is_sequence = hits.len() > 1 && self.laws[hits[0].0].1 == ImpactOrder::Sequence;
+        let guide = hits.iter().find(|(k, _)| before.guide(*k).is_some());
+        if let (true, Some((guide, _))) = (is_sequence, guide) {
+            return Err((
+                *guide,
+                "takes part as a guide in impacts one after the other, for which there are no derivatives",
+            ));
+        }
         let rounds: Vec<&[ReportedImpact]> = if is_sequence {
             hits.chunks(1).collect()
         } else {
@@ -235,23 +244,27 @@ impl Passing<'_, '_> {
             let mut sought = Vec::new();
             for k in (0..after.modes.len()).filter(|k| after.is_closed(*k)) {
                 let rigid = after.compliances[after.presses(k)].is_none();
+                let is_guide = after.guide(k).is_some();
                 let sticks = |phase: &Phase| phase.modes[k] == ContactMode::Sticks;
                 let stuck = after.has_friction[k] && sticks(before) && sticks(after);
-                for (part, is_held) in [(0, rigid && !after.rolls[k]), (1, rigid && stuck)] {
+                let is_pressed = rigid && !is_guide && !after.rolls[k];
+                for (part, is_held) in [(0, is_pressed), (1, rigid && stuck)] {
                     if is_held {
                         let row = place.row(2 * k + part).to_vec();
                         sought.push(Sought {
-                            along: row.clone(),
+                            acts: vec![(2 * k + part, Dual::constant(1.0))],
                             row,
                             change: zero() - place.rates[2 * k + part],
                         });
                     }
                 }
             }
-            self.impulses_for(place, &sought, &after.modes).ok_or((
-                ended[0],
-                "stops bouncing where several contacts share a load",
-            ))?;
+            let guides = vec![SoughtReaction::default(); after.sides.len()];
+            self.impulses_for(place, &sought, &guides, &after.modes)
+                .ok_or((
+                    ended[0],
+                    "stops bouncing where several contacts share a load",
+                ))?;
         }
         Ok(place.v.clone())
     }
@@ -261,9 +274,11 @@ impl Passing<'_, '_> {
         &self,
         place: &mut DualState<'_>,
         sought: &[Sought],
+        guides: &[SoughtReaction],
         modes: &[ContactMode],
     ) -> Option<Vec<Number>> {
-        let (change, impulses) = place.respond(sought, &vec![zero(); self.n])?;
+        let response = place.respond(sought, &[], guides)?;
+        let change = response.change;
         for (v, by) in place.v.iter_mut().zip(&change) {
             *v = *v + *by;
         }
@@ -273,7 +288,7 @@ impl Passing<'_, '_> {
             let by = by.fold(zero(), |sum, (w, by)| sum + *w * *by);
             place.rates[direction] = place.rates[direction] + by;
         }
-        Some(impulses)
+        Some(response.forces)
     }
 
     /// One impact of contacts that take part simultaneously, by Newton's law, with pressing, sticking and slipping
@@ -290,7 +305,9 @@ impl Passing<'_, '_> {
         let one = Dual::constant(1.0);
         let mut sought = Vec::new();
         let mut idle = Vec::new();
-        for (k, hit) in hits.iter().filter(|(k, _)| !after.rolls[*k]) {
+        let guides = self.guides_in_impact(place, after, hits, (greatest, &mut sought))?;
+        let pressed = |k: &usize| !after.rolls[*k] && after.guide(*k).is_none();
+        for (k, hit) in hits.iter().filter(|(k, _)| pressed(k)) {
             let is_idle = hit.impulse[0] <= 1e-12 * greatest;
             // Contacts at rest that receive no impulse press as well, but only if they stay closed.
             let stays_closed = before.is_closed(*k) && after.is_closed(*k);
@@ -300,7 +317,7 @@ impl Passing<'_, '_> {
             if is_idle {
                 idle.push((sought.len(), *k));
             }
-            let mut along = place.row(2 * k).to_vec();
+            let mut acts: Acts = vec![(2 * k, one)];
             let mut tangents = Vec::new();
             for (j, own) in [*k, k + 1].into_iter().filter_map(|j| impact_of(hits, j)) {
                 if after.presses(j) != *k || !after.has_friction[j] {
@@ -321,9 +338,7 @@ impl Passing<'_, '_> {
                 let friction = tangent.friction(place, after);
                 match friction.map_err(|why| (*k, why))? {
                     ImpactFriction::Sticks(tangent) => tangents.push(tangent),
-                    ImpactFriction::Slips { friction, row } => {
-                        crate::varied::add(&mut along, friction, &row);
-                    }
+                    ImpactFriction::Slips(friction) => acts.push((2 * j + 1, friction)),
                 }
             }
             if self.laws[*k].0 != ImpactLaw::Newton && hits.len() > 1 && !self.is_alone(hits, *k) {
@@ -341,17 +356,59 @@ impl Passing<'_, '_> {
                 zero() - (one + restitution) * place.rates[2 * k]
             };
             sought.push(Sought {
-                along,
+                acts,
                 row: place.row(2 * k).to_vec(),
                 change,
             });
             sought.append(&mut tangents);
         }
-        let impulses = self.impulses_for(place, &sought, &after.modes).ok_or((
-            hits[0].0,
-            "shares its impact with others, and the shares are not unique",
-        ))?;
+        let impulses = self
+            .impulses_for(place, &sought, &guides, &after.modes)
+            .ok_or((
+                hits[0].0,
+                "shares its impact with others, and the shares are not unique",
+            ))?;
         check_idle(&impulses, &idle)
+    }
+
+    /// The guides in an impact: the friction of those that slip in it is in proportion to their reactions; those that stop slipping are added to what is sought.
+    fn guides_in_impact(
+        &self,
+        place: &DualState<'_>,
+        after: &Phase,
+        hits: &[ReportedImpact],
+        (greatest, sought): (f64, &mut Vec<Sought>),
+    ) -> Result<Vec<SoughtReaction>, (usize, &'static str)> {
+        let mut guides = vec![SoughtReaction::default(); after.sides.len()];
+        for (k, hit) in hits {
+            let Some(guide) = after.guide(*k) else {
+                continue;
+            };
+            // Without a reaction it has no friction.
+            if hit.impulse[0].abs() <= 1e-12 * greatest {
+                continue;
+            }
+            if self.laws[*k].0 != ImpactLaw::Newton {
+                return Err((
+                    *k,
+                    "has impacts with friction by a law other than `newton`, for which there are no derivatives",
+                ));
+            }
+            let tangent = Tangent {
+                contact: *k,
+                own: hit,
+                is_idle: false,
+                most: place.coefficients(*k)[2].value * hit.impulse[0].abs(),
+            };
+            match tangent.friction(place, after).map_err(|why| (*k, why))? {
+                ImpactFriction::Sticks(tangent) => sought.push(tangent),
+                ImpactFriction::Slips(friction) => {
+                    let side = Dual::constant(hit.impulse[0].signum());
+                    guides[guide].acts.push((2 * k + 1, side * friction));
+                }
+            }
+        }
+        Ok(guides)
     }
 
     /// Whether a contact is the only one with an impulse.
@@ -376,8 +433,8 @@ struct Tangent<'t> {
 enum ImpactFriction {
     /// The slip after the impact is that before it times −eₜ, the tangential restitution.
     Sticks(Sought),
-    /// Friction is this multiple of the normal impulse.
-    Slips { friction: Number, row: Vec<Number> },
+    /// Friction is this multiple of the size of the normal impulse.
+    Slips(Number),
 }
 
 impl Tangent<'_> {
@@ -412,7 +469,7 @@ impl Tangent<'_> {
         if sticks {
             let one = Dual::constant(1.0);
             return Ok(ImpactFriction::Sticks(Sought {
-                along: row.clone(),
+                acts: vec![(2 * j + 1, one)],
                 change: zero() - (one + tangential) * place.rates[2 * j + 1],
                 row,
             }));
@@ -424,10 +481,7 @@ impl Tangent<'_> {
         if !is_idle && most > 0.0 && left.abs() <= ROUNDING * size {
             return Err("is on the boundary between slipping and sticking in its impact");
         }
-        Ok(ImpactFriction::Slips {
-            friction: Dual::constant(sign) * friction,
-            row,
-        })
+        Ok(ImpactFriction::Slips(Dual::constant(sign) * friction))
     }
 }
 

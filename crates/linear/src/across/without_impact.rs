@@ -213,6 +213,10 @@ impl Passing<'_, '_> {
                 } else {
                     normal
                 };
+                let side = before
+                    .guide(contact)
+                    .map_or(1.0, |guide| before.sides[guide]);
+                let normal = Dual::constant(side) * normal;
                 match cause {
                     PhaseCause::Lifts(_) => Some(normal),
                     _ => {
@@ -220,6 +224,10 @@ impl Passing<'_, '_> {
                         Some(most * normal - sign * tangential)
                     }
                 }
+            }
+            PhaseCause::Switches(_) => {
+                let reaction = place.reaction(before, direction).ok()?;
+                Some(reaction.forces[contact][0])
             }
             _ => Some(place.rates[2 * contact + 1]),
         }

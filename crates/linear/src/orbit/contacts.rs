@@ -67,7 +67,9 @@ impl Search<'_> {
         let mut gaps = vec![0.0; system.unilateral_contacts().len()];
         let q = x.as_slice()[..self.n].to_vec();
         system.gaps(self.sought.start.t, &q, &mut gaps);
-        let mut contacts = system.unilateral_contacts().zip(&gaps);
+        // Guides are never open.
+        let contacts = gaps.len() - system.guides();
+        let mut contacts = system.unilateral_contacts().zip(&gaps).take(contacts);
         match contacts.find(|(_, gap)| **gap <= 0.0) {
             Some((contact, _)) => Err(NoOrbit::Refused(format!(
                 "the contact `{}` is closed where the period begins, at the start or where the search has led: start from a state of \
@@ -104,7 +106,7 @@ impl Search<'_> {
         }
     }
 
-    /// A state on the motion from `x` at which no contact is closed, shifted to the time of the start: the middle of the
+    /// A state on the motion from `x` at which no contact is closed, and every guide slips, shifted to the time of the start: the middle of the
     /// longest such interval within a period or, where the period is not known, within a limited number of steps. `None`
     /// where there is none.
     pub(super) fn find_open_state(
@@ -124,10 +126,16 @@ impl Search<'_> {
             .until(until)
             .run_interpreted_as_far_as_possible(start)
             .map_err(failed)?;
+        let guides = run.system().guides();
         let phases: Vec<(f64, bool)> = run
             .contact_phases()
             .map(|phase| {
-                let is_open = phase.modes.iter().all(|mode| *mode == ContactMode::Open);
+                let contacts = phase.modes.len() - guides;
+                let is_open = phase.modes.iter().enumerate().all(|(k, mode)| match mode {
+                    ContactMode::Open => true,
+                    ContactMode::Slides(sign) => k >= contacts && *sign != 0.0,
+                    _ => false,
+                });
                 (phase.since, is_open)
             })
             .collect();

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::{CLOSED, NoOrbit, Search};
-use crate::across;
+use crate::across::{self, NoDerivatives};
 use crate::chart::Chart;
 use crate::varied::Direction;
 use lagrangian::interpreted::{Named, Signals};
-use lagrangian::{Crossing, Machine, Sensitive, Simulation, State, System};
+use lagrangian::{Crossing, Error, Machine, Sensitive, Simulation, State, System};
 use nalgebra::{DMatrix, DVector};
 
 impl Search<'_> {
@@ -148,7 +148,14 @@ impl Search<'_> {
             until: t + period,
             most_steps: MOST_STEPS_OF_PART,
         };
-        let run = across::run(&wanted, &start).map_err(|why| NoOrbit::Run(why.to_string()))?;
+        let run = across::run(&wanted, &start).map_err(|why| {
+            NoOrbit::Run(match why {
+                NoDerivatives::Run(Error::TooManySteps { steps, t, .. }) => format!(
+                    "{steps} steps reach only t = {t} s of a period of {period} s: give a shorter period, or a start nearer to the orbit"
+                ),
+                why => why.to_string(),
+            })
+        })?;
         let end = run.end();
         let all = end.q[..n].iter().chain(&end.v[..n]).copied();
         let there = DVector::from_iterator(2 * n, all);

@@ -8,7 +8,14 @@
 //! ```
 //!
 //! where `wⱼ` is the row of a closed contact, or the tangential row of a sticking one; `cⱼ` is `wⱼ` with the friction of a slipping
-//! contact added; and `k` holds the forces of compliant contacts.
+//! contact added; and `k` holds the forces of compliant contacts. A guide beside contacts has no row along its normal, but its reaction N is a form of
+//! all forces F, (E81), which is one more equation for it; its friction, where it slips, is a multiple of N, whose sign the run knows:
+//!
+//! ```text
+//! N − ρ Δ − χ μ − κ F = ν + ρ a₀ + χ λ₀,      F_t = −μ sgn(w) sgn(N) N
+//! ```
+//!
+//! with a₀ and λ₀ the accelerations and multipliers without contact forces; in an impact the right-hand side is 0.
 
 use lagrangian::{Compliance, ContactMode, Singular, System};
 use lagrangian_program::{Arguments, Interpreter, Role, Shape};
@@ -39,6 +46,8 @@ pub struct Phase {
     pub layers: Vec<Layer>,
     /// How many constraints the machine has.
     pub constraints: usize,
+    /// For each guide, which stand behind the other contacts, the sign of its reaction.
+    pub sides: Vec<f64>,
 }
 
 /// The loading history of a layer.
@@ -67,7 +76,18 @@ impl Phase {
             has_friction: contacts().map(|contact| contact.has_friction).collect(),
             layers: vec![layer; contacts().len()],
             constraints: system.constraints().len(),
+            sides: vec![1.0; system.guides()],
         }
+    }
+
+    /// The number of a guide among the guides, if this contact is one.
+    pub(crate) fn guide(&self, contact: usize) -> Option<usize> {
+        contact.checked_sub(self.modes.len() - self.sides.len())
+    }
+
+    /// The guides as contacts.
+    fn guides(&self) -> std::ops::Range<usize> {
+        self.modes.len() - self.sides.len()..self.modes.len()
     }
 
     /// Whether all contacts are open.
@@ -106,7 +126,12 @@ pub(crate) struct DualState<'i> {
     mass: Vec<Number>,
     /// The constraint rows of the machine.
     held: Vec<Number>,
+    /// For each guide the coefficients of its reaction: of accelerations, multipliers, and forces along all directions.
+    guides: Vec<Number>,
 }
+
+/// Forces, each by its direction: of each contact there is a normal and then a tangential one.
+pub(crate) type Acts = Vec<(usize, Number)>;
 
 /// Accelerations and contact forces.
 pub(crate) struct Reaction {
@@ -115,12 +140,29 @@ pub(crate) struct Reaction {
     pub forces: Vec<[Number; 2]>,
 }
 
-/// A prescribed change of the rate or acceleration along `row`, and the direction `along` in which the unknown
-/// force that brings it about acts.
+/// A prescribed change of the rate or acceleration along `row`, and the forces that act for each unit of the unknown force that brings it
+/// about.
 pub(crate) struct Sought {
-    pub along: Vec<Number>,
+    pub acts: Acts,
     pub row: Vec<Number>,
     pub change: Number,
+}
+
+/// The unknown reaction of a guide: the friction for each unit of it, and what it is without changes and forces.
+#[derive(Clone, Default)]
+pub(crate) struct SoughtReaction {
+    pub acts: Acts,
+    pub load: Option<Number>,
+}
+
+/// A solution of (E67).
+pub(crate) struct Response {
+    /// The changes of accelerations or rates.
+    pub change: Vec<Number>,
+    /// The sought forces or impulses.
+    pub forces: Vec<Number>,
+    /// The reactions of guides.
+    pub reactions: Vec<Number>,
 }
 
 impl<'i> DualState<'i> {
@@ -161,6 +203,13 @@ impl<'i> DualState<'i> {
             biases: call(Role::ContactBias, 2 * contacts)?,
             coefficients: call(Role::ContactCoefficients, 4 * contacts)?,
             held: call(Role::ConstraintMatrix, phase.constraints * n)?,
+            guides: match phase.sides.len() {
+                0 => Vec::new(),
+                guides => call(
+                    Role::GuideMatrix,
+                    guides * (n + phase.constraints + 2 * contacts),
+                )?,
+            },
             mass,
             interpreter,
             t,
@@ -186,9 +235,8 @@ impl<'i> DualState<'i> {
         self.biases[direction] + dot(self.row(direction), a)
     }
 
-    /// The accelerations without contact forces.
-    pub fn free(&mut self) -> Result<Vec<Number>, Singular> {
-        let mut a = vec![ZERO; self.q.len()];
+    fn call(&mut self, role: Role, count: usize) -> Result<Vec<Number>, Singular> {
+        let mut results = vec![ZERO; count];
         let arguments = Arguments {
             t: self.t,
             q: &self.q,
@@ -197,22 +245,77 @@ impl<'i> DualState<'i> {
             a: &[],
         };
         self.interpreter
-            .call(Role::Accelerations, arguments, &mut a)
+            .call(role, arguments, &mut results)
             .map_err(|_| none())?;
-        Ok(a)
+        Ok(results)
     }
 
-    /// `c` of a closed contact: its normal plus the friction in proportion to it, that of rolling friction on it included.
-    fn along(&self, phase: &Phase, contact: usize) -> Vec<Number> {
-        let mut along = self.row(2 * contact).to_vec();
+    /// The accelerations without contact forces.
+    pub fn free(&mut self) -> Result<Vec<Number>, Singular> {
+        self.call(Role::Accelerations, self.q.len())
+    }
+
+    /// The reactions of the guides to these accelerations without contact forces, and what friction they bring with them.
+    fn loaded_guides(
+        &mut self,
+        phase: &Phase,
+        free: &[Number],
+    ) -> Result<Vec<SoughtReaction>, Singular> {
+        let count = phase.sides.len();
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let loads = self.call(Role::GuideLoads, count)?;
+        let multipliers = match phase.constraints {
+            0 => Vec::new(),
+            m => self.call(Role::Multipliers, m)?,
+        };
+        let reactions = phase.guides().zip(loads).enumerate();
+        let reactions = reactions.map(|(guide, (k, load))| {
+            let [by_accelerations, by_multipliers, _] = self.form_of_guide(guide);
+            let load = load + dot(by_accelerations, free) + dot(by_multipliers, &multipliers);
+            SoughtReaction {
+                acts: self.friction_of_guide(phase, k).into_iter().collect(),
+                load: Some(load),
+            }
+        });
+        Ok(reactions.collect())
+    }
+
+    /// The friction of a guide for each unit of its reaction, if it slips.
+    fn friction_of_guide(&self, phase: &Phase, contact: usize) -> Option<(usize, Number)> {
+        let side = phase.sides[phase.guide(contact)?];
+        match phase.modes[contact] {
+            ContactMode::Slides(sign) => {
+                let share = Dual::constant(-sign * side) * self.coefficients(contact)[2];
+                Some((2 * contact + 1, share))
+            }
+            _ => None,
+        }
+    }
+
+    /// The coefficients of the reaction of a guide: of accelerations, multipliers, and forces.
+    fn form_of_guide(&self, guide: usize) -> [&[Number]; 3] {
+        let (n, directions) = (self.q.len(), self.rates.len());
+        let m = self.held.len() / n.max(1);
+        let own = &self.guides[guide * (n + m + directions)..][..n + m + directions];
+        let (by_accelerations, rest) = own.split_at(n);
+        let (by_multipliers, by_forces) = rest.split_at(m);
+        [by_accelerations, by_multipliers, by_forces]
+    }
+
+    /// The forces of a closed contact for each unit of its normal force: that force, and the friction in proportion to it, that of rolling friction on it
+    /// included.
+    fn acts(&self, phase: &Phase, contact: usize) -> Acts {
+        let mut acts = vec![(2 * contact, Dual::constant(1.0))];
         for k in [contact, contact + 1] {
             let is_own = phase.modes.len() > k && phase.presses(k) == contact;
             if is_own && let ContactMode::Slides(sign) = phase.modes[k] {
                 let share = Dual::constant(-sign) * self.coefficients(k)[2];
-                add(&mut along, share, self.row(2 * k + 1));
+                acts.push((2 * k + 1, share));
             }
         }
-        along
+        acts
     }
 
     /// The force of a compliant contact.
@@ -249,22 +352,22 @@ impl<'i> DualState<'i> {
     /// # Errors
     /// If the forces are not unique.
     pub fn reaction(&mut self, phase: &Phase, direction: usize) -> Result<Reaction, Singular> {
-        let n = self.q.len();
         let free = self.free()?;
         let mut forces = vec![[ZERO; 2]; phase.modes.len()];
-        let mut known = vec![ZERO; n];
+        let guides = self.loaded_guides(phase, &free)?;
+        let mut known = Acts::new();
         let (mut sought, mut places) = (Vec::new(), Vec::new());
         for k in (0..phase.modes.len()).filter(|k| phase.is_closed(*k)) {
-            if !phase.rolls[k] {
-                let along = self.along(phase, k);
+            if !phase.rolls[k] && phase.guide(k).is_none() {
+                let acts = self.acts(phase, k);
                 match self.compliant_force(phase, k, direction) {
                     Some(force) => {
-                        add(&mut known, force, &along);
+                        known.extend(acts.into_iter().map(|(of, share)| (of, force * share)));
                         forces[k][0] = force;
                     }
                     None => {
                         sought.push(Sought {
-                            along,
+                            acts,
                             row: self.row(2 * k).to_vec(),
                             change: ZERO - self.acceleration(2 * k, &free),
                         });
@@ -273,42 +376,63 @@ impl<'i> DualState<'i> {
                 }
             }
             if phase.modes[k] == ContactMode::Sticks && phase.has_friction[k] {
-                let row = self.row(2 * k + 1).to_vec();
                 sought.push(Sought {
-                    along: row.clone(),
-                    row,
+                    acts: vec![(2 * k + 1, Dual::constant(1.0))],
+                    row: self.row(2 * k + 1).to_vec(),
                     change: ZERO - self.acceleration(2 * k + 1, &free),
                 });
                 places.push((k, 1));
             }
         }
-        let (change, found) = self.respond(&sought, &known).ok_or_else(none)?;
-        for ((k, part), force) in places.into_iter().zip(found) {
+        let response = self.respond(&sought, &known, &guides).ok_or_else(none)?;
+        for ((k, part), force) in places.into_iter().zip(response.forces) {
             forces[k][part] = force;
         }
-        for k in 0..phase.modes.len() {
+        for (k, reaction) in phase.guides().zip(response.reactions) {
+            forces[k][0] = reaction;
+            if let Some((_, share)) = self.friction_of_guide(phase, k) {
+                forces[k][1] = share * reaction;
+            }
+        }
+        for k in 0..phase.guides().start {
             if let ContactMode::Slides(sign) = phase.modes[k] {
                 let share = Dual::constant(-sign) * self.coefficients(k)[2];
                 forces[k][1] = share * forces[phase.presses(k)][0];
             }
         }
-        let a = free.into_iter().zip(change);
+        let a = free.into_iter().zip(response.change);
         Ok(Reaction {
             a: a.map(|(a, by)| a + by).collect(),
             forces,
         })
     }
 
-    /// Solves (E67) for Δ and the forces λ of the sought changes; `None` where the forces are not unique.
+    /// Solves (E67) for Δ, the forces λ of the sought changes, and the reactions of guides, with known forces; `None` where the forces are not unique.
     pub fn respond(
         &self,
         sought: &[Sought],
-        known: &[Number],
-    ) -> Option<(Vec<Number>, Vec<Number>)> {
+        known: &[(usize, Number)],
+        guides: &[SoughtReaction],
+    ) -> Option<Response> {
         let n = self.q.len();
         let m = self.held.len() / n.max(1);
-        let size = n + m + sought.len();
+        let first_guide = n + m + sought.len();
+        let size = first_guide + guides.len();
         let width = size + 1;
+        let along = |acts: &[(usize, Number)]| {
+            let mut along = vec![ZERO; n];
+            for (direction, share) in acts {
+                add(&mut along, *share, self.row(*direction));
+            }
+            along
+        };
+        let unknown: Vec<&Acts> = sought
+            .iter()
+            .map(|sought| &sought.acts)
+            .chain(guides.iter().map(|guide| &guide.acts))
+            .collect();
+        let columns: Vec<Vec<Number>> = unknown.iter().map(|acts| along(acts)).collect();
+        let given = along(known);
         let mut rows = vec![ZERO; size * width];
         for i in 0..n {
             let row = &mut rows[i * width..][..width];
@@ -316,10 +440,10 @@ impl<'i> DualState<'i> {
             for j in 0..m {
                 row[n + j] = ZERO - self.held[j * n + i];
             }
-            for (j, sought) in sought.iter().enumerate() {
-                row[n + m + j] = ZERO - sought.along[i];
+            for (j, column) in columns.iter().enumerate() {
+                row[n + m + j] = ZERO - column[i];
             }
-            row[size] = known[i];
+            row[size] = given[i];
         }
         for j in 0..m {
             rows[(n + j) * width..][..n].copy_from_slice(&self.held[j * n..][..n]);
@@ -329,10 +453,36 @@ impl<'i> DualState<'i> {
             row[..n].copy_from_slice(&sought.row);
             row[size] = sought.change;
         }
-        let mut accelerations = eliminate(&mut rows, size)?;
-        let forces = accelerations.split_off(n + m);
-        accelerations.truncate(n);
-        Some((accelerations, forces))
+        for (guide, reaction) in guides.iter().enumerate() {
+            let [by_accelerations, by_multipliers, by_forces] = self.form_of_guide(guide);
+            let by = |acts: &[(usize, Number)]| {
+                let terms = acts
+                    .iter()
+                    .map(|(direction, share)| by_forces[*direction] * *share);
+                terms.fold(ZERO, |sum, term| sum + term)
+            };
+            let row = &mut rows[(first_guide + guide) * width..][..width];
+            for (to, by) in row
+                .iter_mut()
+                .zip(by_accelerations.iter().chain(by_multipliers))
+            {
+                *to = ZERO - *by;
+            }
+            for (to, acts) in row[n + m..].iter_mut().zip(&unknown) {
+                *to = ZERO - by(acts);
+            }
+            row[first_guide + guide] = row[first_guide + guide] + Dual::constant(1.0);
+            row[size] = reaction.load.unwrap_or(ZERO) + by(known);
+        }
+        let mut change = eliminate(&mut rows, size)?;
+        let reactions = change.split_off(first_guide);
+        let forces = change.split_off(n + m);
+        change.truncate(n);
+        Some(Response {
+            change,
+            forces,
+            reactions,
+        })
     }
 }
 
@@ -386,7 +536,7 @@ fn eliminate(rows: &mut [Number], size: usize) -> Option<Vec<Number>> {
 }
 
 /// Adds a multiple of a row.
-pub(crate) fn add(to: &mut [Number], times: Number, row: &[Number]) {
+fn add(to: &mut [Number], times: Number, row: &[Number]) {
     for (to, by) in to.iter_mut().zip(row) {
         *to = *to + times * *by;
     }

@@ -1,6 +1,8 @@
 //! Derivatives of runs across impacts, against closed forms differentiated by dual numbers, against Liouville's theorem, and
 //! against central differences of runs, which are independent of saltation matrices.
 
+mod guides;
+
 use lagrangian::Method;
 use lagrangian::interpreted::{InterpretedMachine, Signals};
 use lagrangian::{Machine, Simulation, State};
@@ -108,16 +110,20 @@ fn ends(machine: &InterpretedMachine, by: By<'_>, change: f64, until: f64) -> St
 /// Compares derivatives at the end of a run with differences of runs over `h`; differences over `h/2` tell how
 /// accurate these are.
 fn agrees_with_differences(name: &str, set: &[(&str, f64)], by: &[By<'_>], until: f64, h: f64) {
-    let machine = machine_with(name, set);
+    agrees(&machine_with(name, set), name, by, until, h);
+}
+
+/// The same of any machine.
+fn agrees(machine: &InterpretedMachine, name: &str, by: &[By<'_>], until: f64, h: f64) {
     let signals = Signals::default();
-    let run = across(&machine, &signals, by, until, 1e-12);
+    let run = across(machine, &signals, by, until, 1e-12);
     let run = run.unwrap_or_else(|why| panic!("{name}: {why}"));
     assert!(run.changes() > 0, "{name}: nothing happens");
     let n = machine.program().dimension();
     for (k, by) in by.iter().enumerate() {
-        let size = size(&machine, *by);
+        let size = size(machine, *by);
         let difference = |h: f64| -> Vec<f64> {
-            let [more, less] = [h, -h].map(|h| ends(&machine, *by, h * size, until));
+            let [more, less] = [h, -h].map(|h| ends(machine, *by, h * size, until));
             let pairs = (more.q.iter().chain(&more.v)).zip(less.q.iter().chain(&less.v));
             pairs.map(|(a, b)| (a - b) / (2.0 * h)).collect()
         };

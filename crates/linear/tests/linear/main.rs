@@ -1,5 +1,6 @@
 //! Models against a second algorithm: the derivatives of the accelerations that the program itself computes in `f64`, by a
 //! different elimination from that of the models.
+#![allow(clippy::too_many_lines, reason = "a test reads from top to bottom")]
 
 mod across;
 mod contacts;

@@ -18,7 +18,7 @@ use lagrangian_symbolic::{Expr, Symbol, evaluate, nearest, substitute};
 use super::Equations;
 use super::constraints::ConstraintEquation;
 use super::kinematics::Variables;
-use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::element::{Contribution, Load};
 use lagrangian_spec::model::{Inertia, Model, PoseChange, Rotation, stage};
@@ -93,6 +93,42 @@ pub fn dependents<'d>(
         }
         dependents.push(next);
     }
+}
+
+/// The error of an assumption that fails in every state, with the default parameters, because constraints determine the coordinates in it:
+/// `s > 0` for a circle that rolls inside of a smaller one, whose centres are at the distance `s = R − r`.
+///
+/// Such a machine has no states, so its program can be compared with nothing.
+pub fn violated_assumption<'d>(
+    model: &Model<'d>,
+    constraints: &[ConstraintEquation<'d>],
+) -> Option<Diagnostic> {
+    let dependents = dependents(model, constraints);
+    let x = Variables::of(model);
+    let map = replacements(&x, &dependents);
+    let default = |symbol: Symbol| {
+        let mut parameters = model.parameters.iter();
+        let parameter = parameters.find(|p| p.symbol.as_symbol() == Some(symbol));
+        let value = parameter.and_then(|parameter| parameter.default);
+        value.map_or(f64::NAN, |value| {
+            evaluate(model.dag, &[value], |_| f64::NAN)[0]
+        })
+    };
+    model.assumptions.iter().find_map(|fact| {
+        let excess = substitute(model.dag, &[fact.excess], &map)[0];
+        let excess = identity::as_function_of_parameters(excess)?;
+        let excess = evaluate(model.dag, &[excess], default)[0];
+        let fails = excess < 0.0 || fact.strict && excess == 0.0;
+        let symbols = fact.excess.symbols();
+        let by = dependents.iter().find(|d| symbols.contains(&x.q[d.coordinate]));
+        let by = by.filter(|_| fails)?;
+        let message = format!(
+            "`{}` does not hold in any state, with the default parameters: the constraint `{}` determines `{}`",
+            fact.text, constraints[by.constraint].name, model.coordinates[by.coordinate].name
+        );
+        let diagnostic = Diagnostic::new(Code::FalseAssumption, fact.span, message);
+        Some(diagnostic.help("correct the constraint, the assumption, or the default parameters"))
+    })
 }
 
 /// The replacements of the dependent coordinates, their rates and accelerations.

@@ -73,7 +73,8 @@ pub struct Reaction<'d> {
     pub by_multipliers: Vec<Expr<'d>>,
     /// `κ(q, t)`, the coefficients of the friction forces of the contacts.
     pub by_friction_forces: Vec<Expr<'d>>,
-    /// The coefficients of the forces of unilateral contacts, two of each: along its normal and along its tangent.
+    /// The coefficients of the forces of unilateral contacts, two of each: along its normal and along its tangent. Beside unilateral contacts
+    /// guides are contacts behind them, and friction forces stand here.
     pub by_contact_forces: Vec<Expr<'d>>,
 }
 
@@ -141,6 +142,25 @@ impl<'d> SlidingEquation<'d> {
 }
 
 impl<'d> Reaction<'d> {
+    /// The coefficients, in the order in which a program states them.
+    pub fn coefficients(&self) -> impl Iterator<Item = Expr<'d>> {
+        let lists = [
+            &self.by_accelerations,
+            &self.by_multipliers,
+            &self.by_friction_forces,
+            &self.by_contact_forces,
+        ];
+        lists.into_iter().flatten().copied()
+    }
+
+    /// The same reaction where guides are contacts behind the others, whose forces along their normals it does not depend on.
+    pub(super) fn with_friction_of_contacts(mut self, zero: Expr<'d>) -> Self {
+        let by_friction = std::mem::take(&mut self.by_friction_forces);
+        let of_guides = by_friction.into_iter().flat_map(|by| [zero, by]);
+        self.by_contact_forces.extend(of_guides);
+        self
+    }
+
     fn parts(&mut self) -> impl Iterator<Item = &mut Expr<'d>> {
         let lists = self
             .by_accelerations

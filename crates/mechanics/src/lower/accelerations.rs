@@ -7,7 +7,7 @@ use crate::lower::{
     MOST_MULTIPLICATIONS, articulated, closed, derivatives, friction, labelled, turned,
 };
 use crate::{Reduction, Unprojected};
-use lagrangian_program::choose::{Basis, Form};
+use lagrangian_program::choose::Basis;
 use lagrangian_program::graph::Scaled;
 use lagrangian_program::schedule::LARGEST_FACTORED;
 use lagrangian_program::solve::{Elimination, Pivot, Solution};
@@ -211,14 +211,7 @@ pub(super) fn multipliers<'d>(
     source: LoweringInput<'_, 'd>,
     accelerations: &Draft,
 ) -> Vec<Draft> {
-    let (basis, quantities) = match accelerations.form {
-        Form {
-            basis: Basis::Expanded,
-            reduced: false,
-            ..
-        } => (Basis::Expanded, source.expanded),
-        _ => (Basis::Derived, source.quantities),
-    };
+    let (basis, quantities) = source.in_all_coordinates(accelerations);
     let Some(system) = lowering.system(quantities, source.quantities) else {
         return Vec::new();
     };

@@ -6,7 +6,6 @@
 use super::derivatives::{inverses, of_elimination, solve_by_steps};
 use super::{Lowering, LoweringInput};
 use crate::lower::choosing::{Draft, PlannedFunction};
-use lagrangian_program::choose::{Basis, Form};
 use lagrangian_program::graph::Scaled;
 use lagrangian_program::solve::{self, Elimination, System};
 use lagrangian_program::{ProjectionLayout, Role, Shape};
@@ -22,14 +21,7 @@ pub(super) fn projection<'d>(
     source: LoweringInput<'_, 'd>,
     accelerations: &Draft,
 ) -> Vec<Draft> {
-    let (basis, quantities) = match accelerations.form {
-        Form {
-            basis: Basis::Expanded,
-            reduced: false,
-            ..
-        } => (Basis::Expanded, source.expanded),
-        _ => (Basis::Derived, source.quantities),
-    };
+    let (basis, quantities) = source.in_all_coordinates(accelerations);
     let planned = lowering
         .system(quantities, source.quantities)
         .and_then(|system| function(lowering, source, &system, accelerations));

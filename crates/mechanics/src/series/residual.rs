@@ -5,9 +5,9 @@
 //! Rᵢ = d/dt ∂T/∂vᵢ − ∂T/∂qᵢ − Qᵢ − Σ λ ∂g/∂qᵢ           by momenta
 //! ```
 //!
-//! The first is the shorter one for chains, and wherever velocities of several coordinates add up. In the second the momenta are rows whose
-//! derivative costs no product either. It is shorter where velocities are products along axes of their own: a top has no sines of its precession and of
-//! its spin there, which may turn by many radians in a step. In the first, inertia is that of
+//! The first is the shorter one for chains, and wherever velocities of several coordinates add up. In the second the momenta are rows, whose
+//! derivatives cost no product either. It is the shorter one where velocities are taken along axes that turn: that of a top contains the sine of neither its
+//! precession nor its spin, angles that may grow by many radians in a step. In the first, inertia is that of
 //! scalar positions `p(q, t)` of constant weights `w`: coordinates of mass centres, angles in the plane, and in space
 //! the components of a body's axes, weighted by its pseudo-inertia `J = ½ tr(I) 1 − I`: `½ ωᵀI ω = ½ Σ Jₖₗ ėₖ·ėₗ`. Second
 //! derivatives are symbols of their own and are not expanded: in a series `p̈` follows from `p` without a product.

@@ -1,4 +1,5 @@
 //! The derivation, tested against Lagrange's equations, textbooks, and itself.
+#![allow(clippy::too_many_lines, reason = "a test reads from top to bottom")]
 
 mod approximations;
 mod bushing;

@@ -1,4 +1,5 @@
 //! Programs compute what they were lowered from, they are short, and the proof finds wrong ones.
+#![allow(clippy::too_many_lines, reason = "a test reads from top to bottom")]
 
 mod accuracy;
 mod candidates;

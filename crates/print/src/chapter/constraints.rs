@@ -6,7 +6,7 @@ use super::{Chapter, words};
 use crate::document::{Block, Row};
 use lagrangian_mechanics::ConstraintEquation;
 
-/// Of more constraints than this only the first ones are written out.
+/// The largest number of constraints that are written out; of more, only the first ones are.
 const MOST: usize = 12;
 
 impl<'d> Chapter<'_, 'd> {

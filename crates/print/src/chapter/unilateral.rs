@@ -5,7 +5,7 @@ use lagrangian_symbolic::Math;
 use super::{Chapter, words};
 use crate::document::Block;
 
-/// Of more contacts than this only the first ones are written out.
+/// The largest number of contacts that are written out; of more, only the first ones are.
 const MOST: usize = 12;
 
 impl Chapter<'_, '_> {

@@ -2,7 +2,7 @@
 //!
 //! The distance of two terms is the total of the misprints that lead from one to the other:
 //!
-//! | slip | distance |
+//! | misprint | distance |
 //! | --- | --- |
 //! | the sign | 1 |
 //! | the numerical coefficient | 1 |

@@ -1,7 +1,7 @@
 //! The recurrences for one coefficient of a row, over an abstract arithmetic.
 //!
-//! They are written once, over an [`Arithmetic`]: the interpreter computes with them, and an emitter writes the operations
-//! down. So both do the same operations in the same order.
+//! They are written once, over an [`Arithmetic`]: the interpreter computes with them, and an emitter writes the same operations as
+//! code, in the same order.
 
 use lagrangian_symbolic::{Function as Call, Rational};
 

@@ -1,3 +1,4 @@
+use super::circle::{ODD_ORDER, ODD_ROOT};
 use super::*;
 
 /// The number of points at which every identity is tried.

@@ -4,7 +4,8 @@ use lagrangian::ContactEventKind;
 use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_spec::model::{Contact, Model};
 
-use super::{MOST_INSTANTS, PlanError, VariedQuantity, unit_of};
+use super::varied::{VariedQuantity, unit_of};
+use super::{MOST_INSTANTS, PlanError};
 use crate::design;
 use crate::plan::{Function, Plan};
 use crate::signals;
@@ -28,6 +29,9 @@ fn check_design(plan: &Plan) -> Result<(), PlanError> {
     }
     if plan.runs() == 0 {
         return wrong("there are no runs: a factor of the design has no values".into());
+    }
+    if let Some(fault) = plan.design.iter().find_map(design::Factor::fault) {
+        return wrong(fault);
     }
     for factor in &plan.design {
         if let design::Factor::Sample {

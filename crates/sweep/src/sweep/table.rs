@@ -3,9 +3,11 @@
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, System};
 use lagrangian_spec::model::Model;
+use lagrangian_spec::resolve::Formula as OutputFormula;
 use lagrangian_spec::unit::{rate_name, rate_unit};
 
-use super::{ReductionSource, unit_of};
+use super::ReductionSource;
+use super::varied::unit_of;
 use crate::plan::{AUTO, Function, Plan, Reduction};
 use crate::reduce::{Formula, Tracker};
 use crate::rows::{Column, ColumnType};
@@ -36,11 +38,27 @@ fn is_closed(text: &str) -> bool {
     closed.all(|is_open| is_open)
 }
 
-/// Name, description for messages, text and unit of every formula of a plan, in the order inputs, events, reductions.
-pub(super) fn names(
-    plan: &Plan,
-    model: &Model<'_>,
-) -> Vec<(String, String, String, Option<String>)> {
+/// A formula of a plan: its name as an output of the model, its name for messages, its text and, if that is known, its unit.
+pub(super) struct AskedFormula {
+    name: String,
+    source_name: String,
+    text: String,
+    unit: Option<String>,
+}
+
+impl AskedFormula {
+    pub(super) fn as_output(&self) -> OutputFormula<'_> {
+        OutputFormula {
+            name: &self.name,
+            source_name: &self.source_name,
+            text: &self.text,
+            unit: self.unit.as_deref(),
+        }
+    }
+}
+
+/// Every formula of a plan, in the order inputs, events, reductions.
+pub(super) fn asked_formulas(plan: &Plan, model: &Model<'_>) -> Vec<AskedFormula> {
     let mut all = Vec::new();
     for (name, law) in &plan.inputs {
         if let Some(text) = law.formula() {
@@ -49,12 +67,12 @@ pub(super) fn names(
                 .iter()
                 .find(|input| input.name.to_string() == *name);
             let unit = input.map(|input| input.unit_text.clone());
-            all.push((
-                format!("input {name}"),
-                format!("--input {name}"),
-                text.to_owned(),
+            all.push(AskedFormula {
+                name: format!("input {name}"),
+                source_name: format!("--input {name}"),
+                text: text.to_owned(),
                 unit,
-            ));
+            });
         }
     }
     for watch in &plan.events {
@@ -64,12 +82,12 @@ pub(super) fn names(
             "--event"
         };
         let name = &watch.name;
-        all.push((
-            format!("event {name}"),
-            format!("{option} {name}"),
-            watch.formula.clone(),
-            None,
-        ));
+        all.push(AskedFormula {
+            name: format!("event {name}"),
+            source_name: format!("{option} {name}"),
+            text: watch.formula.clone(),
+            unit: None,
+        });
     }
     for reduction in plan
         .reduce
@@ -78,12 +96,12 @@ pub(super) fn names(
     {
         let name = &reduction.name;
         let (text, _) = subject(reduction);
-        all.push((
-            format!("reduction {name}"),
-            format!("--reduce {name}"),
-            text.to_owned(),
-            None,
-        ));
+        all.push(AskedFormula {
+            name: format!("reduction {name}"),
+            source_name: format!("--reduce {name}"),
+            text: text.to_owned(),
+            unit: None,
+        });
     }
     all
 }

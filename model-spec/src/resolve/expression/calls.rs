@@ -373,6 +373,8 @@ fn value_of_one(function: Function, x: f64) -> f64 {
         Function::Ln => x.ln(),
         Function::Sqrt => x.sqrt(),
         Function::Abs => x.abs(),
-        _ => x.signum(),
+        Function::Sign if x == 0.0 => 0.0, // `signum` of 0 is 1
+        Function::Sign => x.signum(),
+        Function::Atan2 | Function::Min | Function::Max | Function::Pow => f64::NAN,
     }
 }
