@@ -191,7 +191,7 @@ impl UnilateralState {
                 friction,
                 known_normal: known_normal[place],
             },
-            // The contact that it leans on comes before it.
+            // The contact on which it depends comes before it.
             Some(_) => ContactUnknowns::OnCarrier {
                 friction,
                 known_normal: known_normal[place - 1],
@@ -260,7 +260,7 @@ impl UnilateralState {
                 let given: Vec<[f64; 2]> = (colliding.iter().zip(&compression))
                     .map(|(&k, impulse)| [here.restitution(k)[0] * impulse[0], 0.0])
                     .collect();
-                // Nothing is given along the normal of a contact that leans on another one: it has no impulse there.
+                // Nothing is given along the normal of a contact that depends on another one: it has no impulse there.
                 let known_normal: Vec<f64> = given.iter().map(|given| given[0]).collect();
                 let Ok(expansion) = solved(&known_normal, &after(&middle, &given)) else {
                     told.jammed.extend_from_slice(colliding);
