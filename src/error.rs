@@ -289,6 +289,16 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
+    /// The zeros of a function that is watched could not be told from each other within one step: it is noise, as the difference of numbers that are far larger than
+    /// it, or oscillates too often, or has too many kinks.
+    ZerosNotIsolated {
+        /// The name of the event, or the text of the assumption.
+        watched: String,
+        /// The beginning of the step, in s.
+        t: f64,
+        /// The number of values after which the search was given up.
+        values: usize,
+    },
     /// A time outside of the run was requested.
     OutsideRun {
         /// The requested time, in s.

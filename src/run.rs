@@ -29,7 +29,7 @@ use crate::balance::{Energies, EnergyBalance, EnergyIntegrals, Quadratures};
 use crate::constraints::Constraints;
 use crate::contact::Mode;
 use crate::equations::check_equations;
-use crate::event::{self, EndOfStep, Event, Terminal, state};
+use crate::event::{self, EndOfStep, Event, Terminal, Unsearched, state};
 use crate::friction::{Change, Contacts};
 use crate::inputs::{InputLaw, Law, LawInPiece};
 use crate::interpolant::Interpolant;
@@ -37,7 +37,7 @@ use crate::methods::{Method, MethodKind};
 use crate::observation::ObservedSystem;
 use crate::phases::UnilateralRecord;
 use crate::piece::Piece;
-use crate::settings::{Callbacks, Settings, Subject, Task};
+use crate::settings::{Callbacks, Settings, Subject, Task, asked_to_stop};
 use crate::solution::{Ending, Handover, MethodChoice, MethodReason, RunResult, Statistics, Steps};
 use crate::step_error::StepError;
 use crate::stepper::{BorrowedOrOwned, Stepper};
@@ -519,6 +519,24 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         between: &mut BetweenSteps,
         stepped: Result<(), StepError>,
     ) -> Result<Option<Ending>, Error> {
+        match self.examine_unless_stopped(between, stepped) {
+            Ok(ending) => Ok(ending),
+            Err(Unsearched::Failed(error)) => Err(error),
+            Err(Unsearched::Stopped) => {
+                // What happened in this step is not known: the run ends where it began.
+                self.stepper.retreat(self.stepper.t_before());
+                Ok(Some(Ending::Stopped))
+            }
+        }
+    }
+
+    /// [`examine_step`](Self::examine_step), unless the run is stopped during a search within the step.
+    #[inline(always)]
+    fn examine_unless_stopped(
+        &mut self,
+        between: &mut BetweenSteps,
+        stepped: Result<(), StepError>,
+    ) -> Result<Option<Ending>, Unsearched> {
         let BetweenSteps {
             ending,
             pending,
@@ -526,7 +544,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             pending_change,
         } = between;
         if let Err(error) = stepped {
-            return self.examine_failure(ending, error).map(|()| None);
+            self.examine_failure(ending, error)?;
+            return Ok(None);
         }
         if <M::System as System>::MAY_COLLIDE && self.is_stepped() && self.undo_step_into_motion() {
             return Ok(None);
@@ -541,7 +560,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.stepper.retreat(t);
             *pending = Some((change, step));
             if self.stepper.is_done() {
-                return self.change(pending, last_change);
+                return Ok(self.change(pending, last_change)?);
             }
             return Ok(None);
         }
@@ -571,7 +590,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         let end = self.end_of_step(pending.is_some() || pending_change.is_some());
         if let Some(found) = self.find_events(end, &mut interpolant)? {
-            return self.end_at(found).map(Some);
+            return Ok(Some(self.end_at(found)?));
         }
         self.record_last_step(&mut interpolant)?;
         if self.shall_stop() {
@@ -642,7 +661,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         &mut self,
         end: EndOfStep,
         interpolant: &mut LastInterpolant<M>,
-    ) -> Result<Option<Terminal>, Error> {
+    ) -> Result<Option<Terminal>, Unsearched> {
         let Self {
             model,
             stepper,
@@ -651,9 +670,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             ..
         } = self;
         let known = record.events.len();
+        let Callbacks { watches, stop, .. } = callbacks;
+        let mut shall_stop = asked_to_stop::<M>(stop, model.system);
         let found = event::find(
-            &mut callbacks.watches,
-            end,
+            watches,
+            (end, &mut shall_stop),
             &model.observed_system,
             stepper,
             interpolant,

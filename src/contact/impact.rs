@@ -93,6 +93,20 @@ impl UnilateralState {
         (touches, closes)
     }
 
+    /// Whether the gap of an open contact is closed and at rest, up to rounding: whether it opens there is for forces to say.
+    pub fn rests_at_gap<S: System>(
+        &self,
+        system: &S,
+        place: (f64, &S::Vector, &S::Vector),
+        contact: usize,
+    ) -> bool {
+        let here = self.kinematics(system, place);
+        let touches = |k: usize| k == contact || self.modes()[k] != Mode::Open;
+        let rest = self.rest(&here, self.speed, touches);
+        let rate = here.rates[2 * contact].abs();
+        here.is_gap_closed(contact) && rate <= here.rate_rounding(2 * contact).max(rest)
+    }
+
     /// The gap that is negative by more than rounding, if there is one, and by how much.
     pub fn penetrated<S: System>(
         &self,

@@ -177,6 +177,9 @@ sentences! { Error, written to f:
     }
     EventNotFinite { event, t } =>
         "the function of event `{event}` is not a number at t = {t} s"
+    ZerosNotIsolated { watched, t, values } =>
+        "the zeros of `{watched}` could not be told from each other with {values} values in the step from t = {t} s: it is the round-off of \
+         numbers that are far larger than it, or oscillates too often in one step"
     OutsideRun { t, from, to } =>
         "t = {t} s is outside of the run, which goes from {from} s to {to} s"
     NoEnergyBalance => "no energy balance was computed; set `energy_balance(true)`"
