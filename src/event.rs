@@ -478,16 +478,18 @@ impl<M: Machine> Watch<'_, M> {
             Places::Few => &SAMPLE_FRACTIONS,
         };
         let looks = (looks, is_known_at_end);
-        Ok(self.changes(looks, roundoff, ending, exact, |watch, change| {
-            let [from, to] = change.between;
-            let theta = if from == to {
-                from
-            } else {
-                root([from, to], roundoff, &mut |theta| exact(watch, theta))?
-            };
-            found(theta, change.side_before);
-            Ok(())
-        })?)
+        Ok(
+            self.changes(looks, roundoff, ending, exact, |watch, change| {
+                let [from, to] = change.between;
+                let theta = if from == to {
+                    from
+                } else {
+                    root([from, to], roundoff, &mut |theta| exact(watch, theta))?
+                };
+                found(theta, change.side_before);
+                Ok(())
+            })?,
+        )
     }
 
     /// The function's value at a state of the last step.

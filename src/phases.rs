@@ -285,11 +285,8 @@ impl<C, V> UnilateralRecord<C, V> {
             instants,
         });
         let left_out = named(&self.left_out);
-        let left_out = left_out.map(|(t, contacts, steps)| Warning::ContactsLeftOut {
-            t,
-            contacts,
-            steps,
-        });
+        let left_out =
+            left_out.map(|(t, contacts, steps)| Warning::ContactsLeftOut { t, contacts, steps });
         (gains.into_iter().chain(shared).chain(jammed)).chain(left_out)
     }
 }

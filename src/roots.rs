@@ -52,7 +52,8 @@ const CONVERGED_WITH_NOISE: f64 = 1e-7;
 /// it is noise, as the difference of numbers that are far larger than it, or has thousands of kinks.
 pub(crate) const MOST_VALUES: usize = {
     let [.., degree] = DEGREES;
-    (1 << HALVINGS_OF_OSCILLATION) * (degree + 1 + 2) + HALVINGS_OF_OSCILLATION as usize * (degree + 1)
+    (1 << HALVINGS_OF_OSCILLATION) * (degree + 1 + 2)
+        + HALVINGS_OF_OSCILLATION as usize * (degree + 1)
 };
 
 /// After so many values of a function at a time a search asks whether it may continue. Steps in which a function does not oscillate take fewer.
@@ -525,7 +526,10 @@ mod tests {
             Ok::<_, ()>(round_off(theta))
         };
         let found = isolating_fractions(counted, || Ok(()));
-        assert!(matches!(found, Err(NotIsolated::TooManyValues)), "{found:?}");
+        assert!(
+            matches!(found, Err(NotIsolated::TooManyValues)),
+            "{found:?}"
+        );
         assert_eq!(calls, MOST_VALUES);
     }
 
@@ -540,7 +544,9 @@ mod tests {
             Ok::<_, ()>(fast(theta))
         };
         let looks = isolating_fractions(counted, || Ok(())).unwrap();
-        let signs = core::iter::once(&0.0).chain(&looks).map(|theta| fast(*theta) < 0.0);
+        let signs = core::iter::once(&0.0)
+            .chain(&looks)
+            .map(|theta| fast(*theta) < 0.0);
         let changes = signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b);
         // One in every half turn.
         assert_eq!(changes.count(), (2.0 * turns) as usize, "{calls} values");
@@ -559,7 +565,10 @@ mod tests {
             if asked == 3 { Err("stopped") } else { Ok(()) }
         };
         let found = isolating_fractions(counted, may_continue);
-        assert!(matches!(found, Err(NotIsolated::Failed("stopped"))), "{found:?}");
+        assert!(
+            matches!(found, Err(NotIsolated::Failed("stopped"))),
+            "{found:?}"
+        );
         // The value before which it is stopped is not asked for.
         assert_eq!(calls, 3 * VALUES_BETWEEN_ASKING - 1);
     }

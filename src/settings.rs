@@ -101,7 +101,11 @@ pub(crate) fn asked_to_stop<'c, M: Machine>(
     condition: &'c mut Option<Box<dyn Condition<'_, M> + '_>>,
     system: &'c M::System,
 ) -> impl FnMut(Triple<<M::System as System>::Vector>) -> bool {
-    move |at| condition.as_mut().is_some_and(|stops| stops(&state(system, at)))
+    move |at| {
+        condition
+            .as_mut()
+            .is_some_and(|stops| stops(&state(system, at)))
+    }
 }
 
 /// An observer of the states of a run, and its progress.

@@ -362,7 +362,9 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             looks.extend(found.map_err(|why| {
                 let (t, q, v) = event::beginning(stepper);
                 let mut assumptions = self.system.assumptions(t, &q, &v, stepper.inputs());
-                let text = assumptions.nth(index).map_or("?", |assumption| assumption.text);
+                let text = assumptions
+                    .nth(index)
+                    .map_or("?", |assumption| assumption.text);
                 why.explain(text, t)
             })?);
         }

@@ -750,7 +750,12 @@ fn an_oblique_wall_that_lets_go_with_friction_does_not_close_again() {
         9.81,
         0.2530792088235413,
     );
-    let settings = [("M", heavy), ("m", m), ("d", 0.34557457878175823), ("mu", mu)];
+    let settings = [
+        ("M", heavy),
+        ("m", m),
+        ("d", 0.34557457878175823),
+        ("mu", mu),
+    ];
     for place in 0..12 {
         let slope = -0.49931988441863107 + 0.02 * f64::from(place);
         let wall =

@@ -284,7 +284,10 @@ fn a_run_is_stopped_during_a_long_search_for_events() {
     assert!(run.events().is_empty());
     // It ends where the step began, of which nothing is known.
     let start = ball.start();
-    assert_eq!((run.end().t, run.end().q, run.end().v), (start.t, start.q, start.v));
+    assert_eq!(
+        (run.end().t, run.end().q, run.end().v),
+        (start.t, start.q, start.v)
+    );
     assert!(values.load(Ordering::Relaxed) < 100_000 + 4096 + 100);
 }
 
