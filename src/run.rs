@@ -165,10 +165,14 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             keeps_balance: settings.energy_balance,
         };
         let has_contacts = system.unilateral_contacts().len() != 0;
-        let chosen = (settings.automatic).then(|| match has_contacts {
-            _ if !inputs_stay => Beginning::explicit(),
-            true => Beginning::with_contacts(&system, settings.one_of),
-            false => choosing::first(&system, at, &tolerance, (ahead, settings.one_of)),
+        let chosen = (settings.automatic).then(|| {
+            if !inputs_stay {
+                Beginning::explicit()
+            } else if has_contacts {
+                Beginning::with_contacts(&system, settings.one_of)
+            } else {
+                choosing::first(&system, at, &tolerance, (ahead, settings.one_of))
+            }
         });
         if let Some(beginning) = chosen {
             settings.method = beginning.method;
@@ -397,11 +401,12 @@ impl<M: Machine> Record<M> {
         piece: Piece,
     ) -> Self {
         let is_series = settings.method.kind == MethodKind::Series;
-        let others: &[_] = match settings.automatic {
-            true => &CANDIDATES,
-            // With unilateral contacts it is used while one is closed.
-            false if is_series && M::System::MAY_COLLIDE => &CANDIDATES[..1],
-            false => &[],
+        let others: &[_] = if settings.automatic {
+            &CANDIDATES
+        } else if is_series && M::System::MAY_COLLIDE {
+            &CANDIDATES[..1] // With unilateral contacts it is used while one is closed.
+        } else {
+            &[]
         };
         let sampled_inputs = sampled_inputs.map(|inputs| (start.t, inputs));
         Self {

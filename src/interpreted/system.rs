@@ -223,9 +223,12 @@ impl System for InterpretedSystem {
     fn series_derivation(&self) -> Option<f64> {
         let may_have_one = self.program.contacts.is_empty()
             && self.program.constraints.iter().all(|of| of.holonomic);
-        let evaluations = || match may_have_one {
-            true => motion_series::derivation(&self.program),
-            false => f64::INFINITY,
+        let evaluations = || {
+            if may_have_one {
+                motion_series::derivation(&self.program)
+            } else {
+                f64::INFINITY
+            }
         };
         self.series.is_on_demand().then(evaluations)
     }

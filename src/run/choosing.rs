@@ -412,9 +412,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let ((since, before), (t, tried)) = (self.choosing.begun, self.tried());
         let left = self.until - t;
         // Steps that stability limits say nothing of accuracy. Where runs share the derivation, it may be worth fewer steps than a test for stiffness takes.
-        let is_limited_by_accuracy = match self.choosing.is_shared {
-            true => self.stepper.shows_no_stiffness(),
-            false => self.stepper.is_not_stiff(),
+        let is_limited_by_accuracy = if self.choosing.is_shared {
+            self.stepper.shows_no_stiffness()
+        } else {
+            self.stepper.is_not_stiff()
         };
         let so_far = EVALUATIONS * (tried - before) as f64;
         let to_come = so_far * (left / (t - since)).abs();

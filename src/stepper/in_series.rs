@@ -48,12 +48,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             last_step,
             ..
         } = self.control;
-        match is_first {
-            false => GROWTH_IN_FLIGHT * last_step.abs(),
-            true if self.longest_first.is_infinite() && step == 0.0 => {
-                GROWTH_IN_FLIGHT * self.first_step().abs()
-            }
-            true => self.longest_first,
+        if !is_first {
+            GROWTH_IN_FLIGHT * last_step.abs()
+        } else if self.longest_first.is_infinite() && step == 0.0 {
+            GROWTH_IN_FLIGHT * self.first_step().abs()
+        } else {
+            self.longest_first
         }
     }
 

@@ -150,7 +150,8 @@ pub fn factor<N: Scalar>(
     held: usize,
     matrix: &mut [N::Stored],
 ) -> Result<(), Vanished<N>> {
-    if N::PAIRS_AT_ONCE == 0 && size_of::<N::Stored>() == size_of::<f64>() {
+    // A constant, so that for other numbers builds without optimization contain none of these functions either.
+    if const { N::PAIRS_AT_ONCE == 0 && size_of::<N::Stored>() == size_of::<f64>() } {
         match n {
             9..=12 => return factor_in_registers::<N, 12>(n, held, matrix),
             13..=16 => return factor_in_registers::<N, 16>(n, held, matrix),

@@ -3,6 +3,7 @@
 use lagrangian_program::series::{Level, MOST_ROWS, NoSeries, Row, RowId, Series};
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::normal::readable;
+use lagrangian_symbolic::sorting::{sort_by, sort_by_key};
 use lagrangian_symbolic::{Dag, Expr, Function as Call, Id, Node, Rational, Symbol, reachable};
 use rustc_hash::FxHashMap;
 
@@ -32,7 +33,9 @@ pub(super) fn series<'d>(model: &Model<'d>) -> Result<Vec<Series>, NoSeries> {
         found.extend(momenta.filter_map(|form| in_form(model, form).ok()));
     }
     // Stable: positions come first unless another form is faster.
-    found.sort_by(|one, other| one.cycles().total_cmp(&other.cycles()));
+    sort_by(&mut found, |one, other| {
+        one.cycles().total_cmp(&other.cycles())
+    });
     Ok(found)
 }
 
@@ -258,7 +261,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
     }
 
     fn multiplied(&mut self, mut rows: Vec<RowId>) -> Result<Option<RowId>, NoSeries> {
-        rows.sort_by_key(|row| (self.levels[row.index()], *row));
+        sort_by_key(&mut rows, |row| (self.levels[row.index()], *row));
         let mut rows = rows.into_iter();
         let Some(mut product) = rows.next() else {
             return Ok(None);

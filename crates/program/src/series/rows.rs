@@ -1,6 +1,7 @@
 //! Operands and dependencies of rows.
 
 use super::{Level, NoSeries, Row, RowId, Series, Stream};
+use lagrangian_symbolic::sorting::sort_by_key;
 
 impl Series {
     /// The series without unused rows.
@@ -91,7 +92,9 @@ impl Series {
         let mut ready = vec![0_u32; self.rows.len()];
         for index in 0..self.rows.len() {
             if let Row::Sum(terms) = &mut self.rows[index] {
-                terms.sort_by_key(|(_, row)| (self.levels[row.index()], ready[row.index()], *row));
+                sort_by_key(terms, |(_, row)| {
+                    (self.levels[row.index()], ready[row.index()], *row)
+                });
             }
             let mut after = 0;
             self.rows[index].for_each_operand(|operand| {
