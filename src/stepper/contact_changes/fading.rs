@@ -1,4 +1,4 @@
-//! Slips in two directions that fade: what is left of them are the errors of steps.
+//! Slips in two directions that fade: all that remains of them are the errors of steps.
 
 use std::vec;
 use std::vec::Vec;
