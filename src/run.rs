@@ -37,7 +37,7 @@ use crate::methods::{Method, MethodKind};
 use crate::observation::ObservedSystem;
 use crate::phases::UnilateralRecord;
 use crate::piece::Piece;
-use crate::settings::{Callbacks, Settings, Subject, Task};
+use crate::settings::{Callbacks, Settings, Task};
 use crate::solution::{Ending, Handover, MethodChoice, MethodReason, RunResult, Statistics, Steps};
 use crate::step_error::StepError;
 use crate::stepper::{BorrowedOrOwned, Stepper};
@@ -50,7 +50,7 @@ use contacts::PendingChange;
 use explained::ExplainedResidual;
 use flights::{Flights, explicit_for};
 use handing_over::ContactActivity;
-use start::{check_parameters, check_start, project_start};
+use start::{check_start, prepared, project_start};
 
 /// Makes the run of a simulation, and returns it with the error that ended it early, if any.
 ///
@@ -128,14 +128,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         } = task;
         let until = settings.check()?;
         stepping::check_length(settings.method.has_fixed_steps(), settings.longest_step)?;
-        let system = match subject {
-            Subject::Machine(machine) => {
-                check_parameters(machine)?;
-                machine.prepare()
-            }
-            // Its equations were checked when the run began that this one resumes.
-            Subject::System(system) => system,
-        };
+        let system = prepared(subject)?;
         let is_resumed = resumed.is_some();
         if system.contacts().len() + system.unilateral_contacts().len() != 0 && until < start.t {
             return Err(Error::InvalidSetting {
@@ -159,20 +152,20 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let ended = resumed.filter(|resumed| resumed.t == start.t);
         let ended = ended.and_then(|resumed| resumed.event);
         let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
-        let at = (start.t, &q, &v);
-        let ahead = Ahead {
-            left: until - start.t,
-            keeps_balance: settings.energy_balance,
-        };
-        let has_contacts = system.unilateral_contacts().len() != 0;
         let chosen = (settings.automatic).then(|| {
             if !inputs_stay {
-                Beginning::explicit()
-            } else if has_contacts {
-                Beginning::with_contacts(&system, settings.one_of)
-            } else {
-                choosing::first(&system, at, &tolerance, (ahead, settings.one_of))
+                return Beginning::explicit();
             }
+            let ahead = Ahead {
+                left: until - start.t,
+                keeps_balance: settings.energy_balance,
+            };
+            choosing::first(
+                &system,
+                (start.t, &q, &v),
+                &tolerance,
+                (ahead, settings.one_of),
+            )
         });
         if let Some(beginning) = chosen {
             settings.method = beginning.method;

@@ -11,14 +11,13 @@
 use super::Run;
 use super::choosing::{
     Ahead, Beginning, EVALUATIONS, INVESTED, MEASURED, STEPS_BETWEEN_LOOKS, WORTH, by_costs,
-    derivation_of_each,
 };
 use crate::balance::Quadratures;
 use crate::contact::UnilateralState;
 use crate::inputs::InputLaw;
 use crate::methods::{Method, MethodKind};
 use crate::solution::MethodReason;
-use crate::{Error, Machine, System};
+use crate::{Error, Machine};
 
 /// The evaluations that a change in a flight takes by `dop853` beyond those of the step up to it: a step, dense output, and a correction.
 const FINDING: f64 = 2.0 * EVALUATIONS + 3.0;
@@ -52,18 +51,6 @@ impl Flights {
             by_series,
             derivation: chosen.and_then(|beginning| beginning.derivation),
             ..Self::default()
-        }
-    }
-}
-
-impl Beginning {
-    /// The method that a run of a machine with unilateral contacts begins with.
-    ///
-    /// It is one of so many that share the derivation of the series.
-    pub fn with_contacts<S: System>(system: &S, one_of: u64) -> Self {
-        Self {
-            derivation: Some(derivation_of_each(system, one_of).unwrap_or(0.0)),
-            ..Self::explicit()
         }
     }
 }

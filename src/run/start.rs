@@ -7,7 +7,7 @@ use super::reasons::{contradiction, dependences};
 use crate::constraints::{Constraints, Violation, closest};
 use crate::error::{KeptContradiction, constraint_name};
 use crate::names::rate_name;
-use crate::settings::Settings;
+use crate::settings::{Settings, Subject};
 use crate::stages::Point;
 use crate::step_error::StepError;
 use crate::tolerance::Tolerance;
@@ -234,7 +234,19 @@ impl Settings {
     }
 }
 
-pub(super) fn check_parameters<M: Machine>(machine: &M) -> Result<(), Error> {
+/// The equations of motion of what is to be run, for parameters that are finite.
+pub(super) fn prepared<M: Machine>(subject: Subject<'_, M>) -> Result<M::System, Error> {
+    match subject {
+        Subject::Machine(machine) => {
+            check_parameters(machine)?;
+            Ok(machine.prepare())
+        }
+        // These equations were checked when the run began that this one resumes.
+        Subject::System(system) => Ok(system),
+    }
+}
+
+fn check_parameters<M: Machine>(machine: &M) -> Result<(), Error> {
     let mut parameters = machine.parameters();
     match parameters.find(|(_, value)| !value.is_finite()) {
         Some((parameter, value)) => Err(Error::ParameterNotFinite {
