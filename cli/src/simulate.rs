@@ -325,6 +325,9 @@ impl<'d> Prepared<'d> {
         let mut other_method = None;
         if call.method == AUTO {
             machine = machine.with_series_on_demand(move || text_of_series.derive());
+        } else if std::ptr::eq(method, &TAYLOR) {
+            machine = machine
+                .with_contact_series_on_demand(move || text_of_series.derive_with_contacts());
         }
         if std::ptr::eq(method, &TAYLOR) {
             progress::now("deriving the series");

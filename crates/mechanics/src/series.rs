@@ -7,6 +7,7 @@
 //! first; `Ball`s if the machine has functions whose laws do not hold in the field, and if the field finds a
 //! difference, as for [programs](crate::Proved).
 
+mod closed;
 mod lower;
 mod residual;
 mod text;
@@ -14,11 +15,12 @@ mod text;
 use std::ops::Deref;
 use std::sync::Arc;
 
-use lagrangian_program::series::{Expander, NoSeries, Series};
+use lagrangian_program::series::{ContactState, Expander, NoSeries, Series};
 use lagrangian_scalar::{Ball, Jet, Residue};
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Function as Call, Node, reachable};
 
+pub use closed::{MOST_CLOSED, ProvedContactSeries};
 pub use text::SeriesText;
 
 use crate::equations::literal::{Lagrange, State};
@@ -78,21 +80,28 @@ impl Deref for ProvedSeries {
 fn is_proved(series: &Arc<Series>, model: &Model<'_>) -> bool {
     // A machine with constraints of velocities has no series.
     let machine = Lagrange::of(model, |_| true);
-    let nodes = reachable(model.dag, &machine.roots);
-    let is_smooth = nodes.iter().all(|&id| match model.dag.node(id) {
-        Node::Function(call, _) => matches!(call, Call::Sin | Call::Cos),
-        _ => true,
-    });
-    match compare::<Residue>(series, &machine, POINTS) {
-        Some(true) if is_smooth => true,
-        _ => compare::<Ball>(series, &machine, STATES) == Some(true),
+    match compare::<Residue>(series, &machine, &[], POINTS) {
+        Some(true) if is_smooth(&machine) => true,
+        _ => compare::<Ball>(series, &machine, &[], STATES) == Some(true),
     }
 }
 
-/// Whether the equations hold at `states` states; nothing if they do not have values at that many.
+/// Whether all functions in the equations of a machine obey their laws in a field.
+fn is_smooth(machine: &Lagrange<'_, '_>) -> bool {
+    let dag = machine.model.dag;
+    let nodes = reachable(dag, &machine.roots);
+    nodes.iter().all(|&id| match dag.node(id) {
+        Node::Function(call, _) => matches!(call, Call::Sin | Call::Cos),
+        _ => true,
+    })
+}
+
+/// Whether the equations hold at `states` states while the contacts do this, or all are open if nothing is said of them; nothing if they do not have values at
+/// that many.
 fn compare<R: Number>(
     series: &Arc<Series>,
     machine: &Lagrange<'_, '_>,
+    contacts: &[ContactState],
     states: usize,
 ) -> Option<bool> {
     let mut good = 0;
@@ -100,7 +109,7 @@ fn compare<R: Number>(
         let at = R::state(number, machine);
         let w = (0..at.q.len() as u64).map(|i| R::random(number + 7919, i));
         let w: Vec<R> = w.collect();
-        match holds(series, machine, &at, &w) {
+        match holds(series, machine, contacts, &at, &w) {
             Some(false) => return Some(false),
             Some(true) => good += 1,
             None => {}
@@ -116,6 +125,7 @@ fn compare<R: Number>(
 fn holds<R: Number>(
     series: &Arc<Series>,
     machine: &Lagrange<'_, '_>,
+    contacts: &[ContactState],
     at: &State<R>,
     w: &[R],
 ) -> Option<bool> {
@@ -146,14 +156,49 @@ fn holds<R: Number>(
     };
     let literal = machine.dynamics(&moving, &constants(w))?;
     let mut pairs: Vec<(R, R, f64)> = Vec::new();
-    let mut held = literal.applied;
-    for (k, constraint) in literal.constraints.iter().enumerate() {
-        let series = expander.multiplier(k);
-        held = held + Jet(std::array::from_fn(|order| series[order])) * constraint.along;
-        // Accelerations and velocity products cancel in the residual, so their size is its scale.
-        for (order, rate) in constraint.acceleration.0.into_iter().enumerate() {
+    // Accelerations and velocity products cancel in the residual, so their size is its scale.
+    let mut vanishes = |rate: Jet<R, ORDERS>| {
+        for (order, rate) in rate.0.into_iter().enumerate() {
             let sizes = moving.a.iter().map(|a| a.0[order].size());
             pairs.push((rate, R::ZERO, 1.0 + sizes.sum::<f64>()));
+        }
+    };
+    let mut held = literal.applied;
+    let mut multipliers = 0..;
+    let mut next_multiplier = || -> Option<Jet<R, ORDERS>> {
+        let series = expander.multiplier(multipliers.next()?);
+        Some(Jet(std::array::from_fn(|order| series[order])))
+    };
+    for constraint in &literal.constraints {
+        held = held + next_multiplier()? * constraint.along;
+        vanishes(constraint.acceleration);
+    }
+    if contacts.iter().any(|state| *state != ContactState::Open) {
+        let literal = machine.smooth_contacts(&moving, &constants(w));
+        let mut normal = Jet::<R, ORDERS>::constant(R::ZERO);
+        for (state, contact) in contacts.iter().zip(literal) {
+            if *state == ContactState::Open {
+                continue;
+            }
+            let contact = contact?;
+            if !contact.is_carried {
+                normal = next_multiplier()?;
+                held = held + normal * contact.contact.gap.along;
+                vanishes(contact.contact.gap.acceleration);
+            }
+            let slip = contact.contact.slip;
+            match *state {
+                ContactState::Sticks => {
+                    held = held + next_multiplier()? * slip.along;
+                    vanishes(slip.acceleration);
+                }
+                ContactState::Slips(sign) => {
+                    let sign = Jet::constant(R::from_ratio(-i64::from(sign), 1));
+                    let friction = sign * contact.contact.coefficients[2] * normal;
+                    held = held + friction * slip.along;
+                }
+                ContactState::Open => {}
+            }
         }
     }
     for (inertia, held) in std::iter::zip(literal.inertia.0, held.0) {

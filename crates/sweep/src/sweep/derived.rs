@@ -99,7 +99,10 @@ pub(super) fn machine(
             method = <&Method>::default();
             warning = Some(without(method, reason));
         }
-        machine = machine.with_series(series);
+        let text = text_of_series(plan, false).map_err(PlanError::Plan)?;
+        machine = machine
+            .with_series(series)
+            .with_contact_series_on_demand(move || text.derive_with_contacts());
     }
     Ok((machine, method, warning))
 }
@@ -126,7 +129,10 @@ pub(super) fn in_cartesian(
         if series.is_err() {
             return None;
         }
-        machine = machine.with_series(series);
+        let text = text_of_series(plan, true).ok()?;
+        machine = machine
+            .with_series(series)
+            .with_contact_series_on_demand(move || text.derive_with_contacts());
     }
     if plan.method == AUTO {
         let text = text_of_series(plan, true).ok()?;
