@@ -28,11 +28,14 @@ type Derive = dyn Fn() -> Result<ProvedContactSeries, NoSeries> + Send + Sync;
 #[derive(Clone, Default)]
 pub(super) struct ClosedSeries(Option<Arc<Shared>>);
 
+/// What contacts do, and the series of the motion then, if there is one.
+type Set = (Vec<ContactState>, Option<Arc<Known>>);
+
 struct Shared {
     derive: Box<Derive>,
     /// The rows of all contacts; `None` if there are none.
     known: OnceLock<Option<Arc<ContactSeries>>>,
-    sets: Mutex<Vec<(Vec<ContactState>, Option<Arc<Known>>)>>,
+    sets: Mutex<Vec<Set>>,
 }
 
 impl ClosedSeries {

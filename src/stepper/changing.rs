@@ -42,6 +42,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Some(touching) = &model.touching else {
             return false;
         };
+        // Dependent rows have no series, and where they are nearly so it is not accurate.
+        let constraints = model.constraints.as_ref();
+        if constraints.is_some_and(|constraints| constraints.redundant || constraints.at_fork) {
+            return false;
+        }
         let (system, contacts) = (model.system.get(), touching.modes());
         if !system.has_closed_series(contacts) {
             return false;

@@ -23,7 +23,7 @@ use lagrangian_symbolic::{Function as Call, Node, reachable};
 pub use closed::{MOST_CLOSED, ProvedContactSeries};
 pub use text::SeriesText;
 
-use crate::equations::literal::{Lagrange, State};
+use crate::equations::literal::{Lagrange, SmoothContact, State};
 use crate::proof::number::{Number, ZeroTest};
 use crate::{POINTS, STATES};
 
@@ -132,8 +132,46 @@ fn holds<R: Number>(
     let mut expander = Expander::new(series.clone(), &at.parameters, ORDERS);
     let t = [at.t, R::ZERO];
     expander.expand(t, &at.q, &at.v, &at.u).ok()?;
+    let moving = motion(&expander, at);
+    let w: Vec<Jets<R>> = w.iter().map(|&x| Jet::constant(x)).collect();
+    let literal = machine.dynamics(&moving, &w)?;
+    let count = series.unknowns() - series.dimension();
+    let mut multipliers = (0..count).map(|k| {
+        let series = expander.multiplier(k);
+        Jet(std::array::from_fn(|order| series[order]))
+    });
+    let (mut held, mut vanishing) = (literal.applied, Vec::new());
+    for constraint in &literal.constraints {
+        held = held + multipliers.next()? * constraint.along;
+        vanishing.push(constraint.acceleration);
+    }
+    if contacts.iter().any(|state| *state != ContactState::Open) {
+        let literal = machine.smooth_contacts(&moving, &w);
+        let of_contacts = contacts.iter().zip(literal);
+        let forces = forces_of_contacts(of_contacts, &mut multipliers, &mut vanishing)?;
+        held = held + forces;
+    }
+    let mut pairs: Vec<(R, R, f64)> = Vec::new();
+    for rate in vanishing {
+        // Accelerations and velocity products cancel in the residual, so their size is its scale.
+        for (order, rate) in rate.0.into_iter().enumerate() {
+            let sizes = moving.a.iter().map(|a| a.0[order].size());
+            pairs.push((rate, R::ZERO, 1.0 + sizes.sum::<f64>()));
+        }
+    }
+    for (inertia, held) in std::iter::zip(literal.inertia.0, held.0) {
+        pairs.push((inertia, held, inertia.size() + held.size()));
+    }
+    are_equal(pairs)
+}
+
+/// Truncated power series of the motion in time.
+type Jets<R> = Jet<R, ORDERS>;
+
+/// The motion that was expanded.
+fn motion<R: Number>(expander: &Expander<R>, at: &State<R>) -> State<Jets<R>> {
     let number = |j: usize| R::from_ratio(j as i64, 1);
-    let jets = |derivative: usize| -> Vec<Jet<R, ORDERS>> {
+    let jets = |derivative: usize| -> Vec<Jets<R>> {
         let of = |i: usize| {
             let q = expander.coordinate(i);
             Jet(std::array::from_fn(|k| match derivative {
@@ -145,65 +183,57 @@ fn holds<R: Number>(
         (0..at.q.len()).map(of).collect()
     };
     let constants =
-        |list: &[R]| -> Vec<Jet<R, ORDERS>> { list.iter().map(|&x| Jet::constant(x)).collect() };
-    let moving = State {
+        |list: &[R]| -> Vec<Jets<R>> { list.iter().map(|&x| Jet::constant(x)).collect() };
+    State {
         t: Jet::variable(at.t),
         q: jets(0),
         v: jets(1),
         a: jets(2),
         u: constants(&at.u),
         parameters: constants(&at.parameters),
-    };
-    let literal = machine.dynamics(&moving, &constants(w))?;
-    let mut pairs: Vec<(R, R, f64)> = Vec::new();
-    // Accelerations and velocity products cancel in the residual, so their size is its scale.
-    let mut vanishes = |rate: Jet<R, ORDERS>| {
-        for (order, rate) in rate.0.into_iter().enumerate() {
-            let sizes = moving.a.iter().map(|a| a.0[order].size());
-            pairs.push((rate, R::ZERO, 1.0 + sizes.sum::<f64>()));
+    }
+}
+
+/// The generalized force of closed contacts along a direction, where these are the multipliers along their normals and, if they stick, their tangents. Accelerations that
+/// have to vanish are added to the others. Nothing if a closed contact is not smooth.
+fn forces_of_contacts<'s, R: Number>(
+    contacts: impl Iterator<Item = (&'s ContactState, Option<SmoothContact<Jets<R>>>)>,
+    multipliers: &mut impl Iterator<Item = Jets<R>>,
+    vanishing: &mut Vec<Jets<R>>,
+) -> Option<Jets<R>> {
+    let zero = Jets::<R>::constant(R::ZERO);
+    let (mut forces, mut normal) = (zero, zero);
+    for (state, contact) in contacts {
+        if *state == ContactState::Open {
+            continue;
         }
-    };
-    let mut held = literal.applied;
-    let mut multipliers = 0..;
-    let mut next_multiplier = || -> Option<Jet<R, ORDERS>> {
-        let series = expander.multiplier(multipliers.next()?);
-        Some(Jet(std::array::from_fn(|order| series[order])))
-    };
-    for constraint in &literal.constraints {
-        held = held + next_multiplier()? * constraint.along;
-        vanishes(constraint.acceleration);
-    }
-    if contacts.iter().any(|state| *state != ContactState::Open) {
-        let literal = machine.smooth_contacts(&moving, &constants(w));
-        let mut normal = Jet::<R, ORDERS>::constant(R::ZERO);
-        for (state, contact) in contacts.iter().zip(literal) {
-            if *state == ContactState::Open {
-                continue;
-            }
-            let contact = contact?;
-            if !contact.is_carried {
-                normal = next_multiplier()?;
-                held = held + normal * contact.contact.gap.along;
-                vanishes(contact.contact.gap.acceleration);
-            }
-            let slip = contact.contact.slip;
-            match *state {
-                ContactState::Sticks => {
-                    held = held + next_multiplier()? * slip.along;
-                    vanishes(slip.acceleration);
-                }
-                ContactState::Slips(sign) => {
-                    let sign = Jet::constant(R::from_ratio(-i64::from(sign), 1));
-                    let friction = sign * contact.contact.coefficients[2] * normal;
-                    held = held + friction * slip.along;
-                }
-                ContactState::Open => {}
-            }
+        let SmoothContact {
+            contact,
+            is_carried,
+        } = contact?;
+        if !is_carried {
+            normal = multipliers.next()?;
+            forces = forces + normal * contact.gap.along;
+            vanishing.push(contact.gap.acceleration);
         }
+        let tangential = match *state {
+            ContactState::Sticks => {
+                vanishing.push(contact.slip.acceleration);
+                multipliers.next()?
+            }
+            ContactState::Slips(sign) => {
+                let sign = Jet::constant(R::from_ratio(-i64::from(sign), 1));
+                sign * contact.coefficients[2] * normal
+            }
+            ContactState::Open => zero,
+        };
+        forces = forces + tangential * contact.slip.along;
     }
-    for (inertia, held) in std::iter::zip(literal.inertia.0, held.0) {
-        pairs.push((inertia, held, inertia.size() + held.size()));
-    }
+    Some(forces)
+}
+
+/// Whether the numbers of all pairs are equal, each in terms of a size; nothing if that is not known.
+fn are_equal<R: Number>(pairs: Vec<(R, R, f64)>) -> Option<bool> {
     for (found, expected, size) in pairs {
         let left = found - expected;
         if !left.is_finite() {
