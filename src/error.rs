@@ -145,7 +145,7 @@ pub enum Error {
     SingularMassMatrix {
         /// The coordinate at which the elimination stopped.
         coordinate: String,
-        /// The pivot relative to the element on the diagonal of the mass matrix.
+        /// The pivot relative to the element on the diagonal of the mass matrix; infinite if an element of the matrix is infinite or not a number.
         ratio: f64,
         /// Time, in s.
         t: f64,
@@ -154,7 +154,7 @@ pub enum Error {
     DependentConstraint {
         /// The constraint.
         constraint: String,
-        /// The pivot relative to the element on the diagonal of `G M⁻¹ Gᵀ`.
+        /// The pivot relative to the element on the diagonal of `G M⁻¹ Gᵀ`; infinite if an element of this matrix is infinite or not a number.
         ratio: f64,
         /// Time, in s.
         t: f64,
@@ -409,9 +409,9 @@ impl Error {
     /// Converts equations of motion that cannot be solved.
     fn of_singular<S: System>(singular: Singular, system: &S, t: f64) -> Self {
         let name = singular.name(system).into();
-        // 0/0: nothing is left of an element that was 0.
+        // An element that is infinite or not a number has no pivot to compare with.
         let ratio = if singular.ratio.is_nan() {
-            0.0
+            f64::INFINITY
         } else {
             singular.ratio
         };

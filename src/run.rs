@@ -155,6 +155,9 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             let kept = settings.kept_start_values(&system, is_resumed)?;
             (start_warnings, constraints) = project_start(&system, start.t, &mut q, &mut v, kept)?;
             start = state(&system, (start.t, q.clone(), v.clone()));
+        } else if settings.keeps_by_name() {
+            // Nothing moves the start, but a name that does not exist is a mistake.
+            settings.kept_start_values(&system, is_resumed)?;
         }
         let ended = resumed.filter(|resumed| resumed.t == start.t);
         let ended = ended.and_then(|resumed| resumed.event);

@@ -180,6 +180,11 @@ impl Settings {
         Ok(until)
     }
 
+    /// Whether the call names numbers of the start to be kept.
+    pub(super) fn keeps_by_name(&self) -> bool {
+        self.kept.as_ref().is_some_and(|names| !names.is_empty())
+    }
+
     /// Which numbers of the start are kept, coordinates and rates: those that are not 0 in the result.
     pub(super) fn kept_start_values<S: System>(
         &self,
@@ -203,9 +208,15 @@ impl Settings {
                 .and_then(|rest| rest.strip_suffix(')'));
             let (level, asked) = rate.map_or((0, name.as_str()), |rate| (1, rate));
             let mut is_known = false;
+            let is_meant = |own: &str| {
+                let member = own.strip_prefix(asked);
+                member.is_some_and(|member| member.is_empty() || member.starts_with('['))
+            };
             for (j, coordinate) in system.coordinates().enumerate() {
-                let member = coordinate.name.strip_prefix(asked);
-                if member.is_some_and(|member| member.is_empty() || member.starts_with('[')) {
+                // A state of first order is the rate of its integral.
+                let is_state = rate.is_none() && is_meant(&rate_name(coordinate.name));
+                if is_state || is_meant(coordinate.name) {
+                    let level = if is_state { 1 } else { level };
                     kept[level].as_mut_slice()[j] = 1.0;
                     is_known = true;
                 }
