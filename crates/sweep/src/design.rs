@@ -97,16 +97,16 @@ impl Distribution {
     /// Why there is no such distribution, if so.
     pub fn fault(self) -> Option<&'static str> {
         match self {
-            Distribution::Uniform(a, b) | Distribution::LogUniform(a, b) if !(a < b) => {
+            Distribution::Uniform(a, b) | Distribution::LogUniform(a, b) if a >= b => {
                 Some("the first end must be below the second one")
             }
             Distribution::LogUniform(a, b) if a * b <= 0.0 => {
                 Some("both ends must have the same sign, and neither may be 0")
             }
-            Distribution::Normal(_, deviation) if !(deviation > 0.0) => {
+            Distribution::Normal(_, deviation) if deviation <= 0.0 => {
                 Some("a standard deviation must be greater than 0")
             }
-            Distribution::Triangular(a, b, peak) if !(a < b && (a..=b).contains(&peak)) => {
+            Distribution::Triangular(a, b, peak) if a >= b || !(a..=b).contains(&peak) => {
                 Some("the first end must be below the second one, and the peak between them")
             }
             _ => None,

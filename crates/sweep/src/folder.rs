@@ -519,7 +519,9 @@ fn refuse_other_files(path: &Path) -> Result<(), FolderError> {
     for entry in fs::read_dir(path).map_err(at)? {
         let name = entry.map_err(at)?.file_name();
         let name = name.to_string_lossy();
-        if name != "lock" && !is_chunk(&name) && !is_partial(&name) {
+        // File managers leave hidden files in folders that are empty for their users.
+        let is_hidden = name.starts_with('.');
+        if !is_hidden && name != "lock" && !is_chunk(&name) && !is_partial(&name) {
             return Err(FolderError::OtherFiles(path.to_owned(), name.into_owned()));
         }
     }
