@@ -453,9 +453,13 @@ impl<T: Copy> Expander<T> {
             }
             let is_held = |member: &u32| *member as usize >= series.dimension();
             let held = block.members.iter().position(is_held).unwrap_or(count);
-            steps::factor::<N>(count, held, &mut block.matrix).map_err(|vanished| Singular {
-                coordinate: block.members[vanished.row] as usize,
-                ratio: (vanished.pivot / vanished.scale).to_f64(),
+            steps::factor::<N>(count, held, &mut block.matrix).map_err(|vanished| {
+                let (pivot, scale) = (vanished.pivot.to_f64(), vanished.scale.to_f64());
+                Singular {
+                    coordinate: block.members[vanished.row] as usize,
+                    // As in the programs of accelerations, 0/0 is reported as 0.
+                    ratio: if pivot == 0.0 { 0.0 } else { pivot / scale },
+                }
             })?;
         }
         Ok(())
