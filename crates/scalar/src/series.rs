@@ -258,7 +258,7 @@ fn factor_in_registers<N: Scalar, const P: usize>(
     let zero = N::ZERO.store();
     let matrix = &mut matrix[..n * n];
     let tolerance = N::from_f64(n as f64 * f64::EPSILON);
-    // What is left of the upper triangle, L row by row, and the reciprocals of D.
+    // The rows of the upper triangle after elimination, L row by row, and the reciprocals of D.
     let (mut left, mut lower, mut over) = ([[zero; P]; P], [[zero; P]; P], [zero; P]);
     let mut scales = [zero; P];
     for i in 0..n {
