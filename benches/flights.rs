@@ -1,4 +1,4 @@
-//! Machines with contacts by Taylor series in flights, and by `dop853`: times and errors of both, run alternately.
+//! Machines with contacts by Taylor series, in flights and while contacts are closed, and by `dop853`: times and errors of both, run alternately.
 //!
 //! ```text
 //! cargo bench --workspace --bench flights
@@ -29,7 +29,9 @@ fn main() {
     for (name, value) in [("F", 1.0), ("stop", -0.2)] {
         oscillator.set(name, value).expect("a parameter");
     }
-    let cases: [Case; 6] = [
+    let rolling = include_str!("../tests/data/flights/rolling.machine");
+    let rubbing = include_str!("../tests/data/flights/rubbing.machine");
+    let cases: [Case; 9] = [
         ("bouncing ball", of_library("bouncing_ball"), 4.0, 4.0),
         ("impact oscillator", oscillator, 40.0, 400.0),
         ("double pendulum before a wall", machine(wall), 3.0, 50.0),
@@ -41,6 +43,9 @@ fn main() {
             0.4,
             0.4,
         ),
+        ("rocking block", of_library("rocking_block"), 2.0, 3.0),
+        ("disc that rolls", machine(rolling), 5.0, 50.0),
+        ("point that slides", machine(rubbing), 5.0, 50.0),
     ];
     for case in cases {
         rows(case);

@@ -50,13 +50,13 @@ mod stepping;
 mod touching;
 mod undetermined;
 
+pub use crate::unilateral::ContactMode as Mode;
 pub use event::{ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross};
 pub use force::{UnilateralForce, loads_shared_otherwise, penetrations, unilateral_forces};
 pub(crate) use impact::{Bounce, Impact, ParadoxResolution, Told};
 pub(crate) use kinematics::ROUNDING;
 pub(crate) use nearby::{StateBox, StepEnds};
 pub(crate) use stepping::{SteppedContacts, SteppingMemory};
-pub use touching::Mode;
 pub(crate) use touching::{Clearance, ContactMemory, Margin, Margins, UnilateralState};
 
 use crate::contact_law::{lcp, problem};

@@ -145,7 +145,7 @@ pub enum Error {
     SingularMassMatrix {
         /// The coordinate at which the elimination stopped.
         coordinate: String,
-        /// The pivot relative to the element on the diagonal of the mass matrix.
+        /// The pivot relative to the element on the diagonal of the mass matrix; infinite if an element of the matrix is infinite or not a number.
         ratio: f64,
         /// Time, in s.
         t: f64,
@@ -154,7 +154,7 @@ pub enum Error {
     DependentConstraint {
         /// The constraint.
         constraint: String,
-        /// The pivot relative to the element on the diagonal of `G M⁻¹ Gᵀ`.
+        /// The pivot relative to the element on the diagonal of `G M⁻¹ Gᵀ`; infinite if an element of this matrix is infinite or not a number.
         ratio: f64,
         /// Time, in s.
         t: f64,
@@ -289,6 +289,16 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
+    /// The zeros of a function that is watched could not be told from each other within one step: it is noise, as the difference of numbers that are far larger than
+    /// it, or oscillates too often, or has too many kinks.
+    ZerosNotIsolated {
+        /// The name of the event, or the text of the assumption.
+        watched: String,
+        /// The beginning of the step, in s.
+        t: f64,
+        /// The number of values after which the search was given up.
+        values: usize,
+    },
     /// A time outside of the run was requested.
     OutsideRun {
         /// The requested time, in s.
@@ -409,9 +419,9 @@ impl Error {
     /// Converts equations of motion that cannot be solved.
     fn of_singular<S: System>(singular: Singular, system: &S, t: f64) -> Self {
         let name = singular.name(system).into();
-        // 0/0: nothing is left of an element that was 0.
+        // An element that is infinite or not a number has no pivot to compare with.
         let ratio = if singular.ratio.is_nan() {
-            0.0
+            f64::INFINITY
         } else {
             singular.ratio
         };

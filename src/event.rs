@@ -450,8 +450,8 @@ impl<M: Machine> Watch<'_, M> {
         observed_system: &ObservedSystem<'_, M::System, L>,
         stepper: &StepperOf<'_, M, L, A>,
         interpolant: &Interpolant<VectorOf<M>>,
-        mut found: impl FnMut(f64, f64),
-    ) -> Result<(), Error> {
+        (shall_stop, mut found): (ShallStop<'_, '_, VectorOf<M>>, impl FnMut(f64, f64)),
+    ) -> Result<(), Unsearched> {
         let system = observed_system.system;
         let roundoff = theta_roundoff(stepper);
         let exact = |watch: &mut Self, theta: f64| {
@@ -468,20 +468,28 @@ impl<M: Machine> Watch<'_, M> {
         let is_known_at_end = end == EndOfStep::Impacts;
         let looks: &[f64] = match places {
             _ if is_known_at_end => &[1.0],
-            Places::All => &roots::isolating_fractions(|theta| exact(self, theta))?,
+            Places::All => {
+                let found = roots::isolating_fractions(
+                    |theta| Ok(exact(self, theta)?),
+                    || go_on_unless(shall_stop(beginning(stepper))),
+                );
+                &found.map_err(|why| why.explain(&self.name, stepper.t_before()))?
+            }
             Places::Few => &SAMPLE_FRACTIONS,
         };
         let looks = (looks, is_known_at_end);
-        self.changes(looks, roundoff, ending, exact, |watch, change| {
-            let [from, to] = change.between;
-            let theta = if from == to {
-                from
-            } else {
-                root([from, to], roundoff, &mut |theta| exact(watch, theta))?
-            };
-            found(theta, change.side_before);
-            Ok(())
-        })
+        Ok(
+            self.changes(looks, roundoff, ending, exact, |watch, change| {
+                let [from, to] = change.between;
+                let theta = if from == to {
+                    from
+                } else {
+                    root([from, to], roundoff, &mut |theta| exact(watch, theta))?
+                };
+                found(theta, change.side_before);
+                Ok(())
+            })?,
+        )
     }
 
     /// The function's value at a state of the last step.
@@ -574,6 +582,41 @@ impl<M: Machine> Watch<'_, M> {
     }
 }
 
+/// Whether a run shall stop, which a long search within a step asks from time to time, at the state at the beginning of the step.
+pub(crate) type ShallStop<'x, 'y, V> = &'x mut (dyn FnMut(Triple<V>) -> bool + 'y);
+
+/// Time and state at the beginning of the last step.
+pub(crate) fn beginning<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    stepper: &Stepper<'_, S, L, A>,
+) -> Triple<S::Vector> {
+    let (q, v) = (stepper.q_before().clone(), stepper.v_before().clone());
+    (stepper.t_before(), q, v)
+}
+
+/// Why the events of a step are not known.
+#[derive(Debug)]
+pub(crate) enum Unsearched {
+    /// A function cannot be followed.
+    Failed(Error),
+    /// The run was stopped during the search.
+    Stopped,
+}
+
+impl From<Error> for Unsearched {
+    fn from(error: Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// The error where a long search within a step was told to stop.
+pub(crate) fn go_on_unless(stops: bool) -> Result<(), Unsearched> {
+    if stops {
+        Err(Unsearched::Stopped)
+    } else {
+        Ok(())
+    }
+}
+
 /// Where in a step a function is looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Places {
@@ -584,15 +627,15 @@ pub(crate) enum Places {
 }
 
 /// Adds the events of the last step to `events`, in the order in which they happened, up to the first
-/// that ends the run, which is the answer.
+/// that ends the run, which is the answer. A long search asks from time to time whether it `shall_stop`.
 pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
     watches: &mut [Watch<'_, M>],
-    end: EndOfStep,
+    (end, shall_stop): (EndOfStep, ShallStop<'_, '_, VectorOf<M>>),
     observed_system: &ObservedSystem<'_, M::System, L>,
     stepper: &mut StepperOf<'_, M, L, A>,
     interpolant: &mut Option<Interpolant<<M::System as System>::Vector>>,
     events: &mut Vec<Event<Coordinates<M>>>,
-) -> Result<Option<Terminal>, Error> {
+) -> Result<Option<Terminal>, Unsearched> {
     let system = observed_system.system;
     let mut found = Vec::new();
     let is_long =
@@ -605,30 +648,25 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
             continue;
         };
         let motion = step_motion(interpolant, stepper, system)?;
-        watch.locate(
-            seen,
-            end,
-            observed_system,
-            stepper,
-            motion,
-            |theta, side_before| {
-                found.push(SignChange {
-                    watch: index,
-                    theta,
-                    side_before,
-                });
-            },
-        )?;
+        let keep = |theta, side_before| {
+            found.push(SignChange {
+                watch: index,
+                theta,
+                side_before,
+            });
+        };
+        let search = (&mut *shall_stop, keep);
+        watch.locate(seen, end, observed_system, stepper, motion, search)?;
     }
     found.sort_by(|one, other| one.theta.total_cmp(&other.theta));
-    report(
+    Ok(report(
         found,
         watches,
         observed_system,
         stepper,
         interpolant,
         events,
-    )
+    )?)
 }
 
 /// Adds the changes of sign of the last step to `events`, in their order, up to the first that ends the run, which is the answer.

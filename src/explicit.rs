@@ -2,7 +2,7 @@
 //!
 //! These are the steps of a [`Stepper`](crate::Stepper) for machines without constraints and contacts, with the same sums, so in `f64`
 //! they have the same bits. Everything is computed for all trajectories of a number at once, except decisions: whether a step was good,
-//! and how long the next one is. A trajectory whose step was rejected tries again while others go on.
+//! and how long the next one is. A trajectory whose step was rejected attempts a shorter one while others go on.
 
 mod ensemble;
 #[cfg(feature = "std")]
@@ -29,14 +29,14 @@ pub(crate) trait Accelerate<N: StepNumber, V> {
     fn accelerate(&self, t: N, q: &V, v: &V, a: &mut V) -> Result<(), N::Each<Option<Singular>>>;
 }
 
-/// The outcome of one try of a trajectory.
+/// The outcome of one attempt of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Outcome {
-    /// Nothing was tried, because the trajectory is at its end.
+    /// No step was attempted, because the trajectory is at its end.
     Idle,
     /// A step was taken.
     Taken,
-    /// The step was rejected; the next try is shorter.
+    /// The step was rejected; the next attempt is shorter.
     GivenUp,
     /// No step can be taken.
     Failed(StepError),
@@ -64,7 +64,7 @@ pub(crate) struct Track<N: StepNumber, V> {
     /// Accelerations at the stages of the last step; the first one is at its beginning.
     k: [V; MAX_STAGES],
     stage: (V, V),
-    /// The lengths of the last steps tried.
+    /// The lengths of the last steps attempted.
     h: N,
     lanes: N::Each<Lane>,
 }
@@ -80,7 +80,7 @@ fn check<N: StepNumber>(method: &Method, t: f64) -> Result<(), StepError> {
     Ok(())
 }
 
-/// One try of every trajectory, in the fastest arithmetic available for such numbers.
+/// One attempt of every trajectory, in the fastest arithmetic available for such numbers.
 struct Attempt<'a, N: StepNumber, V, M>(&'a mut Track<N, V>, &'a M);
 
 impl<N: StepNumber, V: Vector<N>, M: Accelerate<N, V>> Kernel<N> for Attempt<'_, N, V, M> {
@@ -163,7 +163,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         &self.now.v
     }
 
-    /// The present accelerations of the only trajectory, if its last try was good.
+    /// The present accelerations of the only trajectory, if its last attempt was good.
     pub fn a(&self) -> &V {
         &self.k[self.newest_stage()]
     }
@@ -238,9 +238,9 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     pub fn evaluate_now(&mut self, machine: &impl Accelerate<N, V>) -> Result<(), StepError> {
         let newest = self.newest_stage();
         let Self { now, k, .. } = self;
-        let (mut failed, mut trying) = (N::each(|_| None), N::each(|_| true));
+        let (mut failed, mut attempting) = (N::each(|_| None), N::each(|_| true));
         let at = (now.t, &now.q, &now.v);
-        evaluate(machine, at, &mut k[newest], &mut trying, &mut failed);
+        evaluate(machine, at, &mut k[newest], &mut attempting, &mut failed);
         let control = self.control_mut();
         control.work.evaluations += 1;
         control.begin_anew();
@@ -270,14 +270,14 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         } = self;
         let bounds = [left, *longest];
         attempt::first_step((method, tolerance), now, k, [q, v], bounds, |at, a| {
-            let (mut failed, mut trying) = (N::each(|_| None), N::each(|_| true));
-            evaluate(machine, at, a, &mut trying, &mut failed);
+            let (mut failed, mut attempting) = (N::each(|_| None), N::each(|_| true));
+            evaluate(machine, at, a, &mut attempting, &mut failed);
             lanes.as_mut()[0].control.work.evaluations += 1;
             failed.as_ref()[0].is_none()
         })
     }
 
-    /// One try of every trajectory that is not at its end. Everything that is done per trajectory is inlined too, since the caller may
+    /// One attempt of every trajectory that is not at its end. Everything that is done per trajectory is inlined too, since the caller may
     /// be compiled for wide registers.
     #[inline(always)]
     pub fn attempt<R: Scalar<Stored = N>>(
@@ -306,7 +306,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         outcomes
     }
 
-    /// Makes the present states the beginnings of steps, except where the last step is tried again.
+    /// Makes the present states the beginnings of steps, except where the last step is attempted again.
     #[inline(always)]
     fn begin_steps(&mut self) {
         let lanes = self.lanes.as_mut();
@@ -356,7 +356,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         (h, is_last)
     }
 
-    /// Tries steps of lengths `h` from `before` to `now`; `now` stays at `before`
+    /// Attempts steps of lengths `h` from `before` to `now`; `now` stays at `before`
     /// where a step fails. Returns their errors relative to the tolerance.
     #[inline(always)]
     fn try_steps<R: Scalar<Stored = N>>(
@@ -378,7 +378,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         } = self;
         let lanes = lanes.as_mut();
         let (scheme, stages) = (&method.scheme, method.tableau.stages);
-        let mut trying = N::each(|lane| lanes[lane].is_running);
+        let mut attempting = N::each(|lane| lanes[lane].is_running);
         let are_first = N::each(|lane| lanes[lane].control.is_first);
         let mut evaluations = N::each(|_| 0);
         let mut count = |evaluations: N::Each<usize>| {
@@ -387,9 +387,9 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
             }
         };
 
-        let mut tries = trying.as_ref().contains(&true);
+        let mut attempts = attempting.as_ref().contains(&true);
         for i in 1..stages {
-            if tries {
+            if attempts {
                 let from = (&*before, h);
                 let to = [&mut *q, &mut *v];
                 let t = attempt::go_to_stage::<R, N, V>((method, i), from, k, to);
@@ -397,34 +397,34 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
                     (machine, &mut evaluations),
                     (t, &*q, &*v),
                     &mut k[i],
-                    &mut trying,
+                    &mut attempting,
                     failed,
                 );
-                tries = trying.as_ref().contains(&true);
+                attempts = attempting.as_ref().contains(&true);
             }
         }
-        if !tries {
+        if !attempts {
             choose_point(&N::each(|_| true), now, before);
             count(evaluations);
             return N::each(|_| f64::INFINITY);
         }
 
         attempt::arrive::<R, N, V>(method, (before, h), k, now, (*end, is_last));
-        if scheme.error_needs_end && trying.as_ref().contains(&true) {
-            select(&trying, now, before);
+        if scheme.error_needs_end && attempting.as_ref().contains(&true) {
+            select(&attempting, now, before);
             let at = (now.t, &now.q, &now.v);
             evaluate_counted::<R, V>(
                 (machine, &mut evaluations),
                 at,
                 &mut k[stages],
-                &mut trying,
+                &mut attempting,
                 failed,
             );
         }
         let ends = [&*before, &*now];
         let estimates = attempt::errors::<R, N, V>(method, h, ends, k, (tolerance, &are_first));
-        let errors = judged(&estimates, now, &trying, failed);
-        let mut good = N::each(|lane| trying.as_ref()[lane] && errors.as_ref()[lane] <= 1.0);
+        let errors = judged(&estimates, now, &attempting, failed);
+        let mut good = N::each(|lane| attempting.as_ref()[lane] && errors.as_ref()[lane] <= 1.0);
         if !scheme.error_needs_end && good.as_ref().contains(&true) {
             select(&good, now, before);
             let at = (now.t, &now.q, &now.v);
@@ -441,7 +441,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         errors
     }
 
-    /// Decides about a try of a step with this error; after a good one the next may be longer by the factor `growth`.
+    /// Decides about an attempt of a step with this error; after a good one the next may be longer by the factor `growth`.
     #[inline(always)]
     fn decide(
         &mut self,
@@ -496,7 +496,7 @@ impl<N: Real, V: Vector<N>> Track<N, V> {
         )
     }
 
-    /// The continuous extension of the last step of the only trajectory.
+    /// The dense output of the last step of the only trajectory.
     ///
     /// # Errors
     /// If a stage of it has no accelerations.
@@ -520,8 +520,8 @@ impl<N: Real, V: Vector<N>> Track<N, V> {
             v: [&before.v, &now.v],
         };
         Interpolant::new(method, &ends, k, |t, q, v, a| {
-            let (mut failed, mut trying) = (N::each(|_| None), N::each(|_| true));
-            evaluate(machine, (t, q, v), a, &mut trying, &mut failed);
+            let (mut failed, mut attempting) = (N::each(|_| None), N::each(|_| true));
+            evaluate(machine, (t, q, v), a, &mut attempting, &mut failed);
             lanes.as_mut()[0].control.work.evaluations += 1;
             failed.as_ref()[0].map_or(Ok(()), Err)
         })
@@ -533,19 +533,19 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
     machine: &impl Accelerate<N, V>,
     (t, q, v): (N, &V, &V),
     a: &mut V,
-    trying: &mut N::Each<bool>,
+    attempting: &mut N::Each<bool>,
     failed: &mut N::Each<Option<StepError>>,
 ) {
     let none = machine.accelerate(t, q, v, a).err();
-    reject(none, t, a, trying, failed);
+    reject(none, t, a, attempting, failed);
 }
 
-/// Ends the tries of trajectories that have no accelerations, and sets these to 0, so that NaN does not disturb the other trajectories.
+/// Ends the attempts of trajectories that have no accelerations, and sets these to 0, so that NaN does not disturb the other trajectories.
 fn reject<N: StepNumber, V: Vector<N>>(
     none: Option<N::Each<Option<Singular>>>,
     t: N,
     a: &mut V,
-    trying: &mut N::Each<bool>,
+    attempting: &mut N::Each<bool>,
     failed: &mut N::Each<Option<StepError>>,
 ) {
     let mut sum = N::NOTHING;
@@ -562,8 +562,8 @@ fn reject<N: StepNumber, V: Vector<N>>(
             None => not_finite(a, a, lane).map(|coordinate| StepError::NotFinite { coordinate, t }),
         };
         *fine = error.is_none();
-        if error.is_some() && trying.as_ref()[lane] {
-            trying.as_mut()[lane] = false;
+        if error.is_some() && attempting.as_ref()[lane] {
+            attempting.as_mut()[lane] = false;
             failed.as_mut()[lane] = error;
         }
     }
@@ -580,27 +580,27 @@ fn evaluate_counted<R, V>(
     (machine, evaluations): (&impl Accelerate<R::Stored, V>, &mut Each<R, usize>),
     at: (R::Stored, &V, &V),
     a: &mut V,
-    trying: &mut Each<R, bool>,
+    attempting: &mut Each<R, bool>,
     failed: &mut Each<R, Option<StepError>>,
 ) where
     R: Scalar<Stored: StepNumber>,
     V: Vector<R::Stored>,
 {
-    for (evaluations, trying) in evaluations.as_mut().iter_mut().zip(trying.as_ref()) {
-        *evaluations += usize::from(*trying);
+    for (evaluations, attempting) in evaluations.as_mut().iter_mut().zip(attempting.as_ref()) {
+        *evaluations += usize::from(*attempting);
     }
     let none = machine.accelerate(at.0, at.1, at.2, a).err();
     if none.is_some() || !are_all_finite::<R>(a.as_slice()) {
-        reject(none, at.0, a, trying, failed);
+        reject(none, at.0, a, attempting, failed);
     }
 }
 
-/// The errors of tries with these estimates: infinite where the state has overflowed, so that the estimate means nothing and the step is rejected.
+/// The errors of attempts with these estimates: infinite where the state has overflowed, so that the estimate means nothing and the step is rejected.
 #[inline(always)]
 fn judged<N: StepNumber, V: Vector<N>>(
     estimates: &N::Each<f64>,
     now: &Point<V, N>,
-    trying: &N::Each<bool>,
+    attempting: &N::Each<bool>,
     failed: &mut N::Each<Option<StepError>>,
 ) -> N::Each<f64> {
     let are_numbers = attempt::are_finite(&now.q, &now.v);
@@ -613,7 +613,7 @@ fn judged<N: StepNumber, V: Vector<N>>(
         }
     });
     for (lane, failed) in failed.as_mut().iter_mut().enumerate() {
-        let is_beyond = trying.as_ref()[lane] && errors.as_ref()[lane] == f64::INFINITY;
+        let is_beyond = attempting.as_ref()[lane] && errors.as_ref()[lane] == f64::INFINITY;
         if is_beyond && let Some(coordinate) = not_finite(&now.q, &now.v, lane) {
             let t = now.t.rounded().as_ref()[lane];
             *failed = Some(StepError::NotFinite { coordinate, t });

@@ -11,11 +11,12 @@ use std::vec;
 use std::vec::Vec;
 
 use lagrangian_mechanics::Proved;
-use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_mechanics::series::{ProvedContactSeries, ProvedSeries};
 use lagrangian_program::contact_parts::ContactParts;
 use lagrangian_program::series::NoSeries;
 use lagrangian_program::{Interpreter, Program, Slot};
 
+mod closed_series;
 mod contact_parts;
 mod derivatives;
 mod enclosure;
@@ -37,6 +38,7 @@ mod staged;
 mod system;
 mod table_file;
 
+use closed_series::ClosedSeries;
 use motion_series::MotionSeries;
 use named::{Names, assign, quantities, unit};
 
@@ -66,6 +68,7 @@ pub struct InterpretedMachine {
     parameters: Vec<f64>,
     inputs: Vec<f64>,
     series: MotionSeries,
+    closed_series: ClosedSeries,
     machine_code: engine::MachineCode,
     /// The numbers of single contacts, where there are many, and their machine code.
     contact_parts: Option<Arc<ContactParts>>,
@@ -107,6 +110,7 @@ impl InterpretedMachine {
             machine_code: engine::MachineCode::default(),
             code_of_parts: engine::MachineCode::default(),
             series: MotionSeries::none("its series was not derived"),
+            closed_series: ClosedSeries::default(),
         }
     }
 
@@ -154,6 +158,16 @@ impl InterpretedMachine {
         derive: impl Fn() -> Result<ProvedSeries, NoSeries> + Send + Sync + 'static,
     ) -> InterpretedMachine {
         self.series = MotionSeries::on_demand(Box::new(derive));
+        self
+    }
+
+    /// This machine with a function that derives the series of its motion while unilateral contacts are closed: once for the machine, its clones and their
+    /// runs, when a contact closes in a run by [`TAYLOR`](crate::TAYLOR). Without it such a run goes by another method while one is closed.
+    pub fn with_contact_series_on_demand(
+        mut self,
+        derive: impl Fn() -> Result<ProvedContactSeries, NoSeries> + Send + Sync + 'static,
+    ) -> InterpretedMachine {
+        self.closed_series = ClosedSeries::on_demand(Box::new(derive));
         self
     }
 

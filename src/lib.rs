@@ -131,15 +131,15 @@ pub use system::{MOST_CONTACTS, Staged, System};
 pub use system_in::{MachineIn, SystemIn};
 pub use tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 pub use unilateral::{
-    Compliance, ContactQuantity, ContactTrouble, ImpactLaw, ImpactOrder, Painleve,
+    Compliance, ContactMode, ContactQuantity, ContactTrouble, ImpactLaw, ImpactOrder, Painleve,
     UnilateralContact,
 };
 pub use vector::Vector;
 
 #[cfg(feature = "std")]
 pub use contact::{
-    ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross, Mode as ContactMode,
-    UnilateralForce, loads_shared_otherwise, penetrations, unilateral_forces,
+    ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross, UnilateralForce,
+    loads_shared_otherwise, penetrations, unilateral_forces,
 };
 #[cfg(feature = "std")]
 pub use equations::check_equations;

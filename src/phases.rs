@@ -3,9 +3,10 @@
 use std::string::String;
 use std::vec::Vec;
 
+use crate::ContactMode;
 use crate::balance::ContactShare;
 use crate::constraints::Constraints;
-use crate::contact::{Impact, Mode as ContactMode, SteppedContacts, UnilateralState};
+use crate::contact::{Impact, SteppedContacts, UnilateralState};
 use crate::stepper::Cause;
 use crate::{ContactEnergies, ContactEvent, ContactImpact, ContactTally, System, Warning};
 
@@ -195,13 +196,30 @@ pub(crate) struct UnilateralRecord<C, V> {
     /// Impacts that created energy: their number, and the worst.
     pub energy_gains: usize,
     pub worst: Option<(usize, f64, f64)>,
-    /// Instants at which contacts shared their load in another way than by the rule for undetermined forces, although the motion depends on it: their number,
-    /// the first, and the contacts there.
-    pub shared_otherwise: usize,
-    pub first_shared_otherwise: Option<(f64, Vec<usize>)>,
-    /// Instants at which the friction of contacts admitted no motion with their slips or with their restitution: their number, the first, and the contacts there.
-    pub jammed: usize,
-    pub first_jammed: Option<(f64, Vec<usize>)>,
+    /// Instants at which contacts shared their load in another way than by the rule for undetermined forces, although the motion depends on it.
+    pub shared_otherwise: InstantsOfContacts,
+    /// Instants at which the friction of contacts admitted no motion with their slips or with their restitution.
+    pub jammed: InstantsOfContacts,
+    /// Steps of time stepping in which only contacts that were closed in their middle gave impulses, and the other ones that touched.
+    pub left_out: InstantsOfContacts,
+}
+
+/// Instants at which something was so of some contacts: their number, the first, and the contacts there.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct InstantsOfContacts {
+    pub count: usize,
+    pub first: Option<(f64, Vec<usize>)>,
+}
+
+impl InstantsOfContacts {
+    /// Notes that it is so of these contacts at an instant, if there are any.
+    pub fn note(&mut self, t: f64, contacts: &[usize]) {
+        if contacts.is_empty() {
+            return;
+        }
+        self.count += 1;
+        (self.first).get_or_insert_with(|| (t, in_order(contacts)));
+    }
 }
 
 impl<C, V> Default for UnilateralRecord<C, V> {
@@ -218,10 +236,9 @@ impl<C, V> Default for UnilateralRecord<C, V> {
             of_step: StepRecord::default(),
             energy_gains: 0,
             worst: None,
-            shared_otherwise: 0,
-            first_shared_otherwise: None,
-            jammed: 0,
-            first_jammed: None,
+            shared_otherwise: InstantsOfContacts::default(),
+            jammed: InstantsOfContacts::default(),
+            left_out: InstantsOfContacts::default(),
         }
     }
 }
@@ -239,24 +256,6 @@ impl<C, V> UnilateralRecord<C, V> {
         Some(forgotten)
     }
 
-    /// Notes that contacts shared their load at an instant in another way than by the rule, if any did.
-    pub fn note_shared_otherwise(&mut self, t: f64, contacts: &[usize]) {
-        if contacts.is_empty() {
-            return;
-        }
-        self.shared_otherwise += 1;
-        (self.first_shared_otherwise).get_or_insert_with(|| (t, in_order(contacts)));
-    }
-
-    /// Notes that contacts jammed at an instant, if any did.
-    pub fn note_jammed(&mut self, t: f64, contacts: &[usize]) {
-        if contacts.is_empty() {
-            return;
-        }
-        self.jammed += 1;
-        (self.first_jammed).get_or_insert_with(|| (t, in_order(contacts)));
-    }
-
     /// The warnings to be reported.
     pub fn warnings<S: System>(&self, system: &S) -> impl Iterator<Item = Warning> {
         let name = |contact: usize| {
@@ -269,18 +268,26 @@ impl<C, V> UnilateralRecord<C, V> {
             gain,
             impacts: self.energy_gains,
         });
-        let first = self.first_shared_otherwise.as_ref();
-        let shared = first.map(|(t, contacts)| Warning::LoadShared {
-            t: *t,
-            contacts: contacts.iter().map(|contact| name(*contact)).collect(),
-            instants: self.shared_otherwise,
+        let named = |of: &InstantsOfContacts| {
+            let (t, contacts) = of.first.as_ref()?;
+            let contacts: Vec<String> = contacts.iter().map(|contact| name(*contact)).collect();
+            Some((*t, contacts, of.count))
+        };
+        let shared = named(&self.shared_otherwise);
+        let shared = shared.map(|(t, contacts, instants)| Warning::LoadShared {
+            t,
+            contacts,
+            instants,
         });
-        let jammed = self.first_jammed.as_ref();
-        let jammed = jammed.map(|(t, contacts)| Warning::ContactsJammed {
-            t: *t,
-            contacts: contacts.iter().map(|contact| name(*contact)).collect(),
-            instants: self.jammed,
+        let jammed = named(&self.jammed);
+        let jammed = jammed.map(|(t, contacts, instants)| Warning::ContactsJammed {
+            t,
+            contacts,
+            instants,
         });
-        gains.into_iter().chain(shared).chain(jammed)
+        let left_out = named(&self.left_out);
+        let left_out =
+            left_out.map(|(t, contacts, steps)| Warning::ContactsLeftOut { t, contacts, steps });
+        (gains.into_iter().chain(shared).chain(jammed)).chain(left_out)
     }
 }

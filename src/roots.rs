@@ -47,16 +47,66 @@ const HALVINGS_OF_OSCILLATION: u32 = 14;
 /// [`CONVERGED`] for such a function: a function of an angle of 10⁵ rad is only accurate to 10⁻¹¹.
 const CONVERGED_WITH_NOISE: f64 = 1e-7;
 
+/// The most values of a function in the search for its roots within one step: those of interpolants of the highest degree in as many equal parts as there may be, with
+/// the two that test the slopes of each, and those of the first parts on which the lengths of parts are tried. A function that takes more is not resolved by the finest division:
+/// it is noise, as the difference of numbers that are far larger than it, or has thousands of kinks.
+pub(crate) const MOST_VALUES: usize = {
+    let [.., degree] = DEGREES;
+    (1 << HALVINGS_OF_OSCILLATION) * (degree + 1 + 2)
+        + HALVINGS_OF_OSCILLATION as usize * (degree + 1)
+};
+
+/// After so many values of a function at a time a search asks whether it may continue. Steps in which a function does not oscillate take fewer.
+const VALUES_BETWEEN_ASKING: usize = 4096;
+
 /// Two roots closer than this fraction of the step count as one that does not change the sign.
 const NARROWEST: f64 = 1.0 / (1u64 << 40) as f64;
 
+/// Why the roots of a function within a step are not isolated.
+#[derive(Debug)]
+pub(crate) enum NotIsolated<E> {
+    /// The function has no value somewhere, or the search was not to continue.
+    Failed(E),
+    /// It would take more values than [`MOST_VALUES`].
+    TooManyValues,
+}
+
+impl<E: From<Error>> NotIsolated<E> {
+    /// The error of a function with this name, or this text, in a step that begins at the time `t`.
+    pub fn explain(self, watched: &str, t: f64) -> E {
+        match self {
+            Self::Failed(error) => error,
+            Self::TooManyValues => E::from(Error::ZerosNotIsolated {
+                watched: watched.into(),
+                t,
+                values: MOST_VALUES,
+            }),
+        }
+    }
+}
+
 /// Returns increasing fractions of a step, the last of which is 1, such that the function changes its sign at most once between
-/// neighbours, and between 0 and the first.
-pub(crate) fn isolating_fractions(
-    mut f: impl FnMut(f64) -> Result<f64, Error>,
-) -> Result<Vec<f64>, Error> {
+/// neighbours, and between 0 and the first. A long search asks from time to time whether it may continue.
+///
+/// # Errors
+/// The errors of both functions, and where the function takes too many values.
+pub(crate) fn isolating_fractions<E>(
+    mut f: impl FnMut(f64) -> Result<f64, E>,
+    mut may_continue: impl FnMut() -> Result<(), E>,
+) -> Result<Vec<f64>, NotIsolated<E>> {
     let mut looks = Vec::new();
-    interpolate(&mut f, [0.0, 1.0], Effort::FIRST, &mut looks)?;
+    let mut values = 0;
+    let mut counted = |theta: f64| {
+        if values == MOST_VALUES {
+            return Err(NotIsolated::TooManyValues);
+        }
+        values += 1;
+        if values % VALUES_BETWEEN_ASKING == 0 {
+            may_continue().map_err(NotIsolated::Failed)?;
+        }
+        f(theta).map_err(NotIsolated::Failed)
+    };
+    interpolate(&mut counted, [0.0, 1.0], Effort::FIRST, &mut looks)?;
     looks.retain(|theta| *theta > 0.0);
     if looks.last() != Some(&1.0) {
         looks.push(1.0);
@@ -102,12 +152,12 @@ impl Effort {
 }
 
 /// Interpolates a function between two fractions and isolates its roots there.
-fn interpolate(
-    f: &mut impl FnMut(f64) -> Result<f64, Error>,
+fn interpolate<E>(
+    f: &mut impl FnMut(f64) -> Result<f64, E>,
     [a, b]: [f64; 2],
     effort: Effort,
     looks: &mut Vec<f64>,
-) -> Result<(), Error> {
+) -> Result<(), E> {
     let mut values = Vec::new();
     for node in 0..=COARSE {
         values.push(f(chebyshev_node(node, COARSE, [a, b]))?);
@@ -161,12 +211,12 @@ fn interpolate(
 
 /// Divides an interval in which the function oscillates too fast for one interpolant into the fewest equal parts that are resolved, and isolates
 /// the roots there. Returns whether there are such parts; noise has none.
-fn interpolate_parts(
-    f: &mut impl FnMut(f64) -> Result<f64, Error>,
+fn interpolate_parts<E>(
+    f: &mut impl FnMut(f64) -> Result<f64, E>,
     [a, b]: [f64; 2],
     effort: Effort,
     looks: &mut Vec<f64>,
-) -> Result<bool, Error> {
+) -> Result<bool, E> {
     let [.., degree] = DEGREES;
     for cuts in 1..=effort.of_oscillation {
         let parts = 2_u32.pow(cuts);
@@ -183,7 +233,7 @@ fn interpolate_parts(
             ..effort
         };
         // Whether parts of this length are resolved is tested on the first.
-        let first: Result<Vec<f64>, Error> = (0..=degree)
+        let first: Result<Vec<f64>, E> = (0..=degree)
             .map(|node| f(chebyshev_node(node, degree, [a, cut(1)])))
             .collect();
         if !of_part.resolves(&coefficients(&first?)) {
@@ -209,11 +259,11 @@ fn is_far_from_zero(c: &[f64]) -> bool {
 }
 
 /// Whether a function has the slopes of its interpolant at both ends. A function that oscillates many times can look smooth at the nodes.
-fn is_followed(
-    f: &mut impl FnMut(f64) -> Result<f64, Error>,
+fn is_followed<E>(
+    f: &mut impl FnMut(f64) -> Result<f64, E>,
     c: &[f64],
     [a, b]: [f64; 2],
-) -> Result<bool, Error> {
+) -> Result<bool, E> {
     let count = c.len() as f64;
     let last = c[c.len() - 1].abs().max(c[c.len() - 2].abs());
     // The derivative of the truncation error that `is_far_from_zero` assumes.
@@ -401,7 +451,7 @@ mod tests {
 
     /// The roots between looks, by bisection.
     fn roots(f: fn(f64) -> f64) -> Vec<f64> {
-        let looks = isolating_fractions(|theta| Ok(f(theta))).unwrap();
+        let looks = isolating_fractions(|theta| Ok::<_, ()>(f(theta)), || Ok(())).unwrap();
         let ends = core::iter::once(0.0).chain(looks.iter().copied());
         let pairs = ends.zip(looks.iter().copied());
         let crossing = pairs.filter(|(a, b)| (f(*a) < 0.0) != (f(*b) < 0.0));
@@ -451,11 +501,76 @@ mod tests {
             state = state
                 .wrapping_mul(6_364_136_223_846_793_005)
                 .wrapping_add(1);
-            Ok((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
+            Ok::<_, ()>((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
         };
-        isolating_fractions(noise).unwrap();
+        isolating_fractions(noise, || Ok(())).unwrap();
         // Seven intervals, in each of which parts of fourteen sizes are tried.
         assert!(calls < 7 * 16 * 65, "{calls}");
+    }
+
+    /// As round-off of large numbers: jumps between neighbouring numbers, at places without an order. It is constant in the first part of the finest division, from which nothing
+    /// follows for the others.
+    fn round_off(theta: f64) -> f64 {
+        if theta < 1e-4 {
+            return 0.5;
+        }
+        let hash = theta.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        (hash >> 62) as f64 - 1.5
+    }
+
+    #[test]
+    fn a_function_that_is_not_resolved_is_refused_within_a_budget() {
+        let mut calls = 0;
+        let counted = |theta| {
+            calls += 1;
+            Ok::<_, ()>(round_off(theta))
+        };
+        let found = isolating_fractions(counted, || Ok(()));
+        assert!(
+            matches!(found, Err(NotIsolated::TooManyValues)),
+            "{found:?}"
+        );
+        assert_eq!(calls, MOST_VALUES);
+    }
+
+    #[test]
+    fn what_the_finest_division_resolves_is_within_the_budget() {
+        // The coefficients of 8 turns in a part fall as the Bessel functions J_k(8 π), below 1e-12 at k = 62; those of 16 turns do not.
+        let turns = 8.0 * f64::from(1 << HALVINGS_OF_OSCILLATION);
+        let fast = |x: f64| (0.1 + core::f64::consts::TAU * turns * x).sin();
+        let mut calls = 0;
+        let counted = |theta| {
+            calls += 1;
+            Ok::<_, ()>(fast(theta))
+        };
+        let looks = isolating_fractions(counted, || Ok(())).unwrap();
+        let signs = core::iter::once(&0.0)
+            .chain(&looks)
+            .map(|theta| fast(*theta) < 0.0);
+        let changes = signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b);
+        // One in every half turn.
+        assert_eq!(changes.count(), (2.0 * turns) as usize, "{calls} values");
+    }
+
+    #[test]
+    fn a_long_search_is_stopped() {
+        let mut calls = 0;
+        let counted = |theta| {
+            calls += 1;
+            Ok(round_off(theta))
+        };
+        let mut asked = 0;
+        let may_continue = || {
+            asked += 1;
+            if asked == 3 { Err("stopped") } else { Ok(()) }
+        };
+        let found = isolating_fractions(counted, may_continue);
+        assert!(
+            matches!(found, Err(NotIsolated::Failed("stopped"))),
+            "{found:?}"
+        );
+        // The value before which it is stopped is not asked for.
+        assert_eq!(calls, 3 * VALUES_BETWEEN_ASKING - 1);
     }
 
     #[test]

@@ -29,7 +29,7 @@ use crate::balance::{Energies, EnergyBalance, EnergyIntegrals, Quadratures};
 use crate::constraints::Constraints;
 use crate::contact::Mode;
 use crate::equations::check_equations;
-use crate::event::{self, EndOfStep, Event, Terminal, state};
+use crate::event::{self, EndOfStep, Event, Terminal, Unsearched, state};
 use crate::friction::{Change, Contacts};
 use crate::inputs::{InputLaw, Law, LawInPiece};
 use crate::interpolant::Interpolant;
@@ -37,7 +37,7 @@ use crate::methods::{Method, MethodKind};
 use crate::observation::ObservedSystem;
 use crate::phases::UnilateralRecord;
 use crate::piece::Piece;
-use crate::settings::{Callbacks, Settings, Subject, Task};
+use crate::settings::{Callbacks, Settings, Task, asked_to_stop};
 use crate::solution::{Ending, Handover, MethodChoice, MethodReason, RunResult, Statistics, Steps};
 use crate::step_error::StepError;
 use crate::stepper::{BorrowedOrOwned, Stepper};
@@ -50,7 +50,7 @@ use contacts::PendingChange;
 use explained::ExplainedResidual;
 use flights::{Flights, explicit_for};
 use handing_over::ContactActivity;
-use start::{check_parameters, check_start, project_start};
+use start::{check_start, prepared, project_start};
 
 /// Makes the run of a simulation, and returns it with the error that ended it early, if any.
 ///
@@ -128,14 +128,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         } = task;
         let until = settings.check()?;
         stepping::check_length(settings.method.has_fixed_steps(), settings.longest_step)?;
-        let system = match subject {
-            Subject::Machine(machine) => {
-                check_parameters(machine)?;
-                machine.prepare()
-            }
-            // Its equations were checked when the run began that this one resumes.
-            Subject::System(system) => system,
-        };
+        let system = prepared(subject)?;
         let is_resumed = resumed.is_some();
         if system.contacts().len() + system.unilateral_contacts().len() != 0 && until < start.t {
             return Err(Error::InvalidSetting {
@@ -155,20 +148,27 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             let kept = settings.kept_start_values(&system, is_resumed)?;
             (start_warnings, constraints) = project_start(&system, start.t, &mut q, &mut v, kept)?;
             start = state(&system, (start.t, q.clone(), v.clone()));
+        } else if settings.keeps_by_name() {
+            // Nothing moves the start, but a name that does not exist is a mistake.
+            settings.kept_start_values(&system, is_resumed)?;
         }
         let ended = resumed.filter(|resumed| resumed.t == start.t);
         let ended = ended.and_then(|resumed| resumed.event);
         let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
-        let at = (start.t, &q, &v);
-        let ahead = Ahead {
-            left: until - start.t,
-            keeps_balance: settings.energy_balance,
-        };
-        let has_contacts = system.unilateral_contacts().len() != 0;
-        let chosen = (settings.automatic).then(|| match has_contacts {
-            _ if !inputs_stay => Beginning::explicit(),
-            true => Beginning::with_contacts(&system, settings.one_of),
-            false => choosing::first(&system, at, &tolerance, (ahead, settings.one_of)),
+        let chosen = (settings.automatic).then(|| {
+            if !inputs_stay {
+                return Beginning::explicit();
+            }
+            let ahead = Ahead {
+                left: until - start.t,
+                keeps_balance: settings.energy_balance,
+            };
+            choosing::first(
+                &system,
+                (start.t, &q, &v),
+                &tolerance,
+                (ahead, settings.one_of),
+            )
         });
         if let Some(beginning) = chosen {
             settings.method = beginning.method;
@@ -397,11 +397,12 @@ impl<M: Machine> Record<M> {
         piece: Piece,
     ) -> Self {
         let is_series = settings.method.kind == MethodKind::Series;
-        let others: &[_] = match settings.automatic {
-            true => &CANDIDATES,
-            // With unilateral contacts it is used while one is closed.
-            false if is_series && M::System::MAY_COLLIDE => &CANDIDATES[..1],
-            false => &[],
+        let others: &[_] = if settings.automatic {
+            &CANDIDATES
+        } else if is_series && M::System::MAY_COLLIDE {
+            &CANDIDATES[..1] // With unilateral contacts it is used while one is closed.
+        } else {
+            &[]
         };
         let sampled_inputs = sampled_inputs.map(|inputs| (start.t, inputs));
         Self {
@@ -519,6 +520,24 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         between: &mut BetweenSteps,
         stepped: Result<(), StepError>,
     ) -> Result<Option<Ending>, Error> {
+        match self.examine_unless_stopped(between, stepped) {
+            Ok(ending) => Ok(ending),
+            Err(Unsearched::Failed(error)) => Err(error),
+            Err(Unsearched::Stopped) => {
+                // What happened in this step is not known: the run ends where it began.
+                self.stepper.retreat(self.stepper.t_before());
+                Ok(Some(Ending::Stopped))
+            }
+        }
+    }
+
+    /// [`examine_step`](Self::examine_step), unless the run is stopped during a search within the step.
+    #[inline(always)]
+    fn examine_unless_stopped(
+        &mut self,
+        between: &mut BetweenSteps,
+        stepped: Result<(), StepError>,
+    ) -> Result<Option<Ending>, Unsearched> {
         let BetweenSteps {
             ending,
             pending,
@@ -526,7 +545,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             pending_change,
         } = between;
         if let Err(error) = stepped {
-            return self.examine_failure(ending, error).map(|()| None);
+            self.examine_failure(ending, error)?;
+            return Ok(None);
         }
         if <M::System as System>::MAY_COLLIDE && self.is_stepped() && self.undo_step_into_motion() {
             return Ok(None);
@@ -541,7 +561,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.stepper.retreat(t);
             *pending = Some((change, step));
             if self.stepper.is_done() {
-                return self.change(pending, last_change);
+                return Ok(self.change(pending, last_change)?);
             }
             return Ok(None);
         }
@@ -571,7 +591,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         let end = self.end_of_step(pending.is_some() || pending_change.is_some());
         if let Some(found) = self.find_events(end, &mut interpolant)? {
-            return self.end_at(found).map(Some);
+            return Ok(Some(self.end_at(found)?));
         }
         self.record_last_step(&mut interpolant)?;
         if self.shall_stop() {
@@ -642,7 +662,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         &mut self,
         end: EndOfStep,
         interpolant: &mut LastInterpolant<M>,
-    ) -> Result<Option<Terminal>, Error> {
+    ) -> Result<Option<Terminal>, Unsearched> {
         let Self {
             model,
             stepper,
@@ -651,9 +671,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             ..
         } = self;
         let known = record.events.len();
+        let Callbacks { watches, stop, .. } = callbacks;
+        let mut shall_stop = asked_to_stop::<M>(stop, model.system);
         let found = event::find(
-            &mut callbacks.watches,
-            end,
+            watches,
+            (end, &mut shall_stop),
             &model.observed_system,
             stepper,
             interpolant,

@@ -5,10 +5,10 @@ use std::string::String;
 use std::vec::Vec;
 
 use crate::callbacks::{Condition, Controller, Shared};
-use crate::event::Watch;
+use crate::event::{Triple, Watch, state};
 use crate::inputs::Law;
 use crate::methods::Method;
-use crate::{Coordinates, Error, Machine, State, StepMotion};
+use crate::{Coordinates, Error, Machine, State, StepMotion, System};
 
 /// Everything that a run needs besides its start.
 pub(crate) struct Task<'a, M: Machine, L> {
@@ -94,6 +94,18 @@ pub(crate) struct Callbacks<'a, M: Machine> {
     pub sampled: Option<Sampled<'a, M>>,
     pub streams: Vec<StateStream<'a, M>>,
     pub observer: Option<Observer<'a, M>>,
+}
+
+/// Whether a run with this condition to stop shall do so at a state.
+pub(crate) fn asked_to_stop<'c, M: Machine>(
+    condition: &'c mut Option<Box<dyn Condition<'_, M> + '_>>,
+    system: &'c M::System,
+) -> impl FnMut(Triple<<M::System as System>::Vector>) -> bool {
+    move |at| {
+        condition
+            .as_mut()
+            .is_some_and(|stops| stops(&state(system, at)))
+    }
 }
 
 /// An observer of the states of a run, and its progress.

@@ -14,7 +14,8 @@ use crate::System;
 pub struct Singular {
     /// Where elimination stopped.
     pub at: Pivot,
-    /// The pivot relative to the diagonal element that it came from; 0 if the pivot or the element is 0. At a contact, 0 if no motion
+    /// The pivot relative to the diagonal element that it came from; 0 if the pivot or the element is 0, and not a number if they have no finite
+    /// value, as where numbers overflow. At a contact, 0 if no motion
     /// satisfies its law of friction, and infinite if several do. 0 if no row is the cause.
     pub ratio: f64,
 }
@@ -59,6 +60,16 @@ impl Singular {
 impl Display for Singular {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.at {
+            Pivot::Coordinate(index) if self.ratio.is_nan() => write!(
+                f,
+                "the mass matrix has no finite value in the row of coordinate number {}: numbers overflow, or a formula is undefined there",
+                index + 1
+            ),
+            Pivot::Constraint(index) if self.ratio.is_nan() => write!(
+                f,
+                "G M⁻¹ Gᵀ has no finite value in the row of constraint number {}: numbers overflow, or a formula is undefined there",
+                index + 1
+            ),
             Pivot::Coordinate(index) => write!(
                 f,
                 "the mass matrix cannot be inverted: at coordinate number {} the pivot is {:.1e} of the element on the diagonal",

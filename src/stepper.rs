@@ -736,7 +736,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if self.taylor.is_some() {
             self.choose_length()?;
         }
-        let limits = self.begin_tries()?;
+        let limits = self.begin_attempts()?;
         loop {
             let (h, last) = self.choose(limits);
             #[cfg(feature = "std")]

@@ -17,7 +17,7 @@ use std::vec::Vec;
 use crate::series_memory::SeriesMemory;
 use crate::stages::Point;
 use crate::tolerance::Tolerance;
-use crate::{Singular, System, Vector};
+use crate::{ContactMode, Singular, System, Vector};
 pub(crate) use bounds::MotionBounds;
 use length::usual_ratios;
 pub(crate) use length::{
@@ -138,10 +138,10 @@ impl<V: Vector> Taylor<V> {
         self.length = None;
     }
 
-    /// Expands the motion through a state: the start, or with `ahead` the end of the step that is being tried.
+    /// Expands the motion through a state: the start, or with `ahead` the end of the step that is being tried. The contacts are given if one of them is closed.
     pub fn expand<S: System<Vector = V>>(
         &mut self,
-        system: &S,
+        (system, closed): (&S, Option<&[ContactMode]>),
         at: &Point<V>,
         u: &S::Inputs,
         ahead: bool,
@@ -154,7 +154,13 @@ impl<V: Vector> Taylor<V> {
         self.length = None;
         let t = [at.t, at.t_low];
         let (state, memory) = ((&at.q, &at.v), &mut self.memory);
-        system.series_with(memory, t, state, u, &mut self.coefficients[which])
+        let coefficients = &mut self.coefficients[which];
+        match closed {
+            Some(contacts) if S::MAY_COLLIDE => {
+                system.closed_series(contacts, t, state, u, coefficients)
+            }
+            _ => system.series_with(memory, t, state, u, coefficients),
+        }
     }
 
     /// The coefficients of the motion through the end of the step that is being tried, to be set.

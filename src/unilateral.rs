@@ -1,4 +1,4 @@
-//! Unilateral contacts in the description of a machine, and the errors that they can cause in a run.
+//! Unilateral contacts in the description of a machine, what they do in a run, and the errors that they can cause there.
 
 /// A unilateral contact of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +25,39 @@ pub struct UnilateralContact<'a> {
     pub is_second_tangent: bool,
     /// Whether it is a corner on a face of a polygon, which has ends, given by [`System::contact_faces`](crate::System::contact_faces).
     pub has_face: bool,
+}
+
+/// What a closed contact does, or that it is open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ContactMode {
+    /// It does not touch.
+    Open,
+    /// It touches and slips, forward or backward; 0 where it has no friction.
+    Slides(f64),
+    /// It touches and slips in space, in this direction, of length 1: that of the slip when the step began. A slip that passes through
+    /// rest is continued as if it went backwards along it.
+    SlidesAlong([f64; 2]),
+    /// It touches and does not slip.
+    Sticks,
+}
+
+impl ContactMode {
+    /// Whether contacts do the same, in whatever direction they slip.
+    pub fn is_like(self, other: ContactMode) -> bool {
+        match (self, other) {
+            (ContactMode::SlidesAlong(_), ContactMode::SlidesAlong(_)) => true,
+            _ => self == other,
+        }
+    }
+
+    /// The direction of the slip along both tangents; 0 where there is none.
+    pub fn direction(self) -> [f64; 2] {
+        match self {
+            ContactMode::Slides(sign) => [sign, 0.0],
+            ContactMode::SlidesAlong(heading) => heading,
+            ContactMode::Open | ContactMode::Sticks => [0.0; 2],
+        }
+    }
 }
 
 /// A quantity of unilateral contacts, see [`System::of_contacts`](crate::System::of_contacts).

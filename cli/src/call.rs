@@ -22,7 +22,7 @@ pub use arguments::{Arguments, SetName};
 pub use brachistochrone::Brachistochrone;
 pub use derive::{Check, Derive, Form};
 pub use export::{Fmu, Library, Names, UnitKind, UnitMethod};
-pub use fit::{Bounds, Fit, SigmaOption, names_of, refuse_twice};
+pub use fit::{Bounds, Fit, SigmaOption, names_of_option, refuse_twice};
 pub use import::{Ball, Base, Friction, Import, Limits};
 pub use linear::{Linearize, Modes, Search, Steady, SteadyRate, Vary};
 use linear::{observed, vary};

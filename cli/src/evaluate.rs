@@ -249,12 +249,18 @@ fn fill(
             }
             Ok(())
         }
-        Some(Numbers::List(values)) => Err(format!(
-            "{what} has {} numbers, the machine has {} {}",
-            values.len(),
-            places.len(),
-            if is_states { "states" } else { "coordinates" }
-        )),
+        Some(Numbers::List(values)) => {
+            let counted = |count: usize, word: &str| match count {
+                1 => format!("1 {word}"),
+                count => format!("{count} {word}s"),
+            };
+            let of_machine = if is_states { "state" } else { "coordinate" };
+            Err(format!(
+                "{what} has {}, the machine has {}",
+                counted(values.len(), "number"),
+                counted(places.len(), of_machine)
+            ))
+        }
         Some(Numbers::ByName(entries)) => {
             let names = numbers.iter().map(|(name, _)| name);
             let names = names.filter_map(|name| match state_of(name) {

@@ -35,9 +35,6 @@ use crate::reading::{self, ChartUse, InCharts, Reading, places};
 use crate::table;
 use data::{Class, Given};
 
-/// The most searches for `--starts`.
-const MOST_SEARCHES: u64 = 10_000;
-
 /// The files that a call requests.
 struct Files {
     out: Option<Destination>,
@@ -152,7 +149,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         )));
     }
     progress::now("fitting");
-    let count = usize::try_from(call.starts.min(MOST_SEARCHES)).unwrap_or(1);
+    let count = usize::try_from(call.starts).unwrap_or(1);
     let searched = search(&mut fit, count, sigmas);
     let searched = searched.map_err(|failed| failure(failed).placed(&compiled.model, &sources))?;
     let mut result = Fitted {
@@ -322,7 +319,7 @@ fn sought(
     given: &[Given],
     experiments: &[Experiment],
 ) -> Result<Vec<Sought>, Failure> {
-    let names = call::names_of(&call.sought).map_err(Failure::Call)?;
+    let names = call::names_of_option("--fit", &call.sought)?;
     let start = machine.start();
     let mut sought: Vec<Sought> = Vec::new();
     for name in &names {

@@ -8,7 +8,7 @@
 use std::iter;
 
 use lagrangian::interpreted::{InterpretedMachine, Named, PreciseRun};
-use lagrangian::{LEAST_RELATIVE_TOLERANCE, State};
+use lagrangian::{Error, LEAST_RELATIVE_TOLERANCE, State};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program::series::NoSeries;
 use lagrangian_units::state_of;
@@ -22,6 +22,9 @@ const WIDE_TOLERANCE: f64 = 1e-26;
 
 /// The finer run has the tolerance times this.
 const FINER: f64 = 1e-2;
+
+/// Why Ctrl-C leaves no estimate.
+const INTERRUPTED: &str = "--global-error: the estimate was interrupted";
 
 /// If round-off at the start causes this fraction of the error or more, a finer tolerance gains little.
 const ROUNDING: f64 = 0.3;
@@ -54,7 +57,7 @@ enum Reference {
 }
 
 /// Estimates the error at the end of a run from a start. `again` repeats the run with another tolerance, or
-/// from another start.
+/// from another start; `is_stopped` is polled between the steps of a run in double-doubles.
 ///
 /// # Errors
 /// Why there is no estimate.
@@ -62,6 +65,7 @@ pub fn estimate(
     asked: EstimatedRun<'_>,
     (start, end): (&State<Named>, &State<Named>),
     again: impl Fn(f64, State<Named>) -> Option<State<Named>>,
+    is_stopped: &dyn Fn() -> bool,
 ) -> Result<Estimate, String> {
     let EstimatedRun {
         machine,
@@ -78,8 +82,17 @@ pub fn estimate(
             tolerance: WIDE_TOLERANCE,
             max_steps,
         };
-        run.end(&machine, start, end.t).ok()
+        let poll = || match is_stopped() {
+            true => Err(Error::Stepper {
+                message: INTERRUPTED.into(),
+            }),
+            false => Ok(()),
+        };
+        run.polled_end(&machine, start, end.t, &poll).ok()
     });
+    if is_stopped() {
+        return Err(INTERRUPTED.into());
+    }
     if let Some(wide) = wide {
         return Ok(Estimate {
             errors: precise::errors(&wide, end),
@@ -100,7 +113,11 @@ pub fn estimate(
             shortest(tolerance)
         ));
     }
-    let Some(exact) = again(finer, start.clone()) else {
+    let exact = again(finer, start.clone());
+    if is_stopped() {
+        return Err(INTERRUPTED.into());
+    }
+    let Some(exact) = exact else {
         return Err(format!(
             "--global-error: the run at a tolerance of {} did not reach the end",
             shortest(finer)

@@ -183,7 +183,7 @@ fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Reque
     let observed = system.outputs(0.0, &start.q.values, &start.v.values, &zero, &all);
     let constraints: Vec<String> = system.constraints().map(|c| c.name.to_owned()).collect();
     let mut outputs: Vec<Observed> = Vec::new();
-    let wanted = call::names_of(&call.outputs).map_err(Failure::Call)?;
+    let wanted = call::names_of_option("--outputs", &call.outputs)?;
     for name in &wanted {
         let found = resolve(name, &start.q, &observed, &constraints);
         if found.is_empty() {

@@ -141,7 +141,7 @@ impl Columns {
     /// # Errors
     /// If there is no such column.
     pub fn chosen(&self, lists: &[String], run: &Path) -> Result<Vec<&Quantity>, Failure> {
-        let wanted = call::names_of(lists).map_err(Failure::Call)?;
+        let wanted = call::names_of_option("--of", lists)?;
         if wanted.is_empty() {
             let has_rates = |column: &&Quantity| match column.kind {
                 Some(kind) => kind == ColumnKind::Coordinate,

@@ -51,7 +51,7 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     keep_apart(all.iter().copied(), &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
     let reading = Reading::open(&call.spec)?.with_values(&call.start);
-    let wanted = call::names_of(&call.by).map_err(Failure::Call)?;
+    let wanted = call::names_of_option("--by", &call.by)?;
     let mut cartesian = None;
     let (compiled, sources) = modes::compiled_with(reading, &dag, all, "sensitivities", |model| {
         cartesian = model.cartesian.take();

@@ -125,6 +125,8 @@ struct Trouble<'a> {
     placed: Option<Placed>,
     /// Whether the user interrupted it by Ctrl-C.
     is_interrupted: bool,
+    /// Whether the user interrupted the estimate of its error, after it had reached its end.
+    is_estimate_interrupted: bool,
     /// Further errors.
     other: Vec<String>,
 }
@@ -175,6 +177,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         error: error.as_ref(),
         placed: error.as_ref().and_then(|error| prepared.placed(error)),
         is_interrupted: matches!(run.ending(), Ending::Stopped),
+        is_estimate_interrupted: false,
         other: verdict::energy_error(&run).into_iter().collect(),
     };
     let contacts = watched.results(&run);
@@ -184,6 +187,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
             Ok(estimate) => global_error = Some(estimate),
             Err(why) => trouble.other.push(why),
         }
+        trouble.is_estimate_interrupted = interrupt.was_pressed();
     }
     if files.all().next().is_some() {
         progress::now("writing");
@@ -325,6 +329,9 @@ impl<'d> Prepared<'d> {
         let mut other_method = None;
         if call.method == AUTO {
             machine = machine.with_series_on_demand(move || text_of_series.derive());
+        } else if std::ptr::eq(method, &TAYLOR) {
+            machine = machine
+                .with_contact_series_on_demand(move || text_of_series.derive_with_contacts());
         }
         if std::ptr::eq(method, &TAYLOR) {
             progress::now("deriving the series");
@@ -486,7 +493,8 @@ impl<'d> Prepared<'d> {
             has_fixed_steps: self.method.has_fixed_steps(),
             max_steps: call.max_steps,
         };
-        global_error::estimate(estimated_run, (run.start(), run.end()), again)
+        let is_stopped = || interrupt.was_pressed();
+        global_error::estimate(estimated_run, (run.start(), run.end()), again, &is_stopped)
     }
 
     /// Writes the page of a run.
@@ -580,6 +588,7 @@ fn print(
         output::print_error(format_args!("error: {error}"));
     }
     match (errors.is_empty(), interruption) {
+        (false, _) if trouble.is_estimate_interrupted => Err(Failure::Interrupted),
         (false, _) => Err(Failure::AlreadyReported),
         (true, Some(_)) => Err(Failure::Interrupted),
         (true, None) => Ok(()),

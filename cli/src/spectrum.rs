@@ -49,7 +49,10 @@ pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
             ))
         })?;
         spectra.push(SpectrumOf {
-            lines: spectrum.lines(call.lines, call.least),
+            lines: spectrum.lines(
+                usize::try_from(call.lines).unwrap_or(usize::MAX),
+                call.least,
+            ),
             quantity,
             spectrum,
         });

@@ -203,6 +203,14 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
     }
 }
 
+/// A number of runs, in words.
+fn counted(runs: u64) -> String {
+    match runs {
+        1 => "1 run".to_owned(),
+        runs => format!("{runs} runs"),
+    }
+}
+
 /// Prints a summary.
 fn print_summary(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u64), shown: &str) {
     let Summary {
@@ -231,12 +239,13 @@ fn print_summary(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u6
     let usual = <&Method>::default().tableau.name;
     let speed = now as f64 / seconds.max(1e-9);
     output::line(format_args!(
-        "{runs} runs, {failed} failed, {seconds:.1} s ({speed:.0} runs per second), {shown}"
+        "{}, {failed} failed, {seconds:.1} s ({speed:.0} runs per second), {shown}",
+        counted(*runs)
     ));
     // If all runs went by the usual method, the choice is not mentioned, as by `simulate`.
     if methods.keys().any(|names| names != usual) {
         for (names, runs) in methods {
-            output::line(format_args!("  {names}: {runs} runs"));
+            output::line(format_args!("  {names}: {}", counted(*runs)));
         }
     }
     for (run, error) in first_errors {
@@ -364,7 +373,11 @@ fn prepare(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
 }
 
 fn failure(trouble: FolderError) -> Failure {
-    Failure::Run(trouble.to_string())
+    let message = trouble.to_string();
+    match trouble {
+        FolderError::OtherFiles(..) => Failure::Call(format!("--out: {message}")),
+        _ => Failure::Run(message),
+    }
 }
 
 /// Reads the plan from a file.
@@ -574,6 +587,11 @@ fn numbers(path: &Path) -> Result<(Vec<Heading>, Vec<Vec<f64>>), Failure> {
     }
     let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
     let headers = TextTable::new(&text).headers;
+    if headers.iter().all(|header| header.is_empty()) {
+        return Err(wrong(
+            "it is empty; its first line must name its columns".into(),
+        ));
+    }
     let headings: Vec<Heading> = headers.iter().map(|header| split(header)).collect();
     let names: Vec<String> = headings.iter().map(|(name, _)| name.clone()).collect();
     let rows = table::rows(&text, &names).map_err(wrong)?;

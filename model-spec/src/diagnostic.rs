@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 
 use crate::source::{SourceId, Span};
+use lagrangian_symbolic::sorting::sort_by_key;
 
 mod render;
 
@@ -357,7 +358,7 @@ impl Report {
 
 fn by_position<'a>(list: impl IntoIterator<Item = &'a Diagnostic>) -> Vec<&'a Diagnostic> {
     let mut list: Vec<&Diagnostic> = list.into_iter().collect();
-    list.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+    sort_by_key(&mut list, |diagnostic| (diagnostic.span, diagnostic.code));
     list
 }
 

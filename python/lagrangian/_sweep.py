@@ -321,7 +321,10 @@ def _design(
 
 
 #: Functions of reductions, as plans call them.
-_FUNCTIONS = ("max", "min", "range", "mean", "rms", "integral", "first", "last", "when_max", "when_min", "count")
+_FUNCTIONS = ("max", "min", "range", "mean", "rms", "integral", "first", "last", "when_max", "when_min", "count", "frequency", "power")
+
+#: The second word in the name of an event of a contact, such as ``floor impact``, by which it differs from any formula.
+_CONTACT_EVENTS = ("impact", "closes", "lifts", "opens", "turns", "crushes", "sticks", "slips", "reverses", "switches")
 
 
 def _reduction(name: str, text: str, events: Iterable[str]) -> Dict[str, str]:
@@ -332,7 +335,8 @@ def _reduction(name: str, text: str, events: Iterable[str]) -> Dict[str, str]:
     if function not in _FUNCTIONS:
         raise unknown("reduction", function, _FUNCTIONS)
     of = rest[:-1].strip()
-    if of in events and function in ("first", "last"):
+    _, space, kind = of.rpartition(" ")
+    if function in ("first", "last") and (of in events or (space and kind in _CONTACT_EVENTS)):
         function += "_event"
     return {"name": name, "function": function, "of": of}
 
@@ -371,8 +375,8 @@ def sweep(
     * ``record``: ``"end"``, ``"at=0.5,1"``, ``"every=0.01"``, or several of these; ``"event=NAME,…"`` has samples at every event
       of these names, from ``after`` on.
     * ``reduce``: a mapping from names to reductions, ``"max(abs(x))"``: ``max``, ``min``, ``range``, ``mean``, ``rms``,
-      ``integral``, ``first``, ``last``, ``when_max``, ``when_min`` of an expression; ``count``, ``first``, ``last`` of an event;
-      all from the time ``after`` on, in s.
+      ``integral``, ``first``, ``last``, ``when_max``, ``when_min`` of an expression; ``count``, ``frequency``, ``first``, ``last`` of an event,
+      also of a contact, ``"count(floor impact)"``; ``power`` of a contact; all from the time ``after`` on, in s.
     * ``method``: as for ``simulate``; with ``auto``, the default of the command, each run chooses its methods, and a column ``methods`` tells which.
     * ``inputs``, ``events``: numbers, formulas, tables and sampled formulas, as for ``simulate``. Functions in Python are
       rejected, since they are not portable.

@@ -110,6 +110,7 @@ fn trouble(trouble: FolderError) -> PyErr {
             path.display()
         )),
         FolderError::InUse(_) => PyRuntimeError::new_err(trouble.to_string()),
+        FolderError::OtherFiles(..) => PyValueError::new_err(trouble.to_string()),
         FolderError::OtherPlan(differences) => PyValueError::new_err(format!(
             "the folder holds another sweep: {}; fresh=True begins again",
             differences.join("; ")

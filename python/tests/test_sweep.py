@@ -76,6 +76,8 @@ def test_what_a_sweep_refuses(oscillator):
         ({"vary": {"k": [1, 2]}, "reduce": {"p": "most(x)"}}, lg.UnknownName, "reduction"),
         ({"vary": {"k": [1, 2]}, "reduce": {"p": "max(y)"}}, lg.SpecError, "`y`"),
         ({"vary": {"k": [1, 2]}, "record": "sometimes"}, ValueError, "record"),
+        ({"vary": {"k": [1, 2]}, "record": "at=0.5,0.5"}, ValueError, "0.5 s is given more than once"),
+        ({"vary": {"k": [1, 2]}, "tolerance": 0}, ValueError, "tolerance"),
         ({"vary": {"k": [1, 2]}, "engine": "steam"}, ValueError, "engine"),
         ({"vary": {"k": [1, 2]}, "record": ["every=1", "event=e"], "events": {"e": "x"}}, ValueError, "drawn in one way"),
     ):
@@ -83,6 +85,41 @@ def test_what_a_sweep_refuses(oscillator):
             oscillator.sweep(until=1, **settings)
     with pytest.raises(ValueError):
         lg.Uniform(2, 1)
+
+
+def test_events_and_contacts_are_reduced():
+    ball = lg.loads(
+        """machine Ball in plane {
+            parameters { e: 1 = 0.5, g: m/s^2 = 9.81 }
+            coordinates { y: m = 1 }
+            bodies { ball { mass: 2, at: (0, y) } }
+            gravity (0, -g);
+            contacts { floor { gap: y, restitution: e } }
+        }"""
+    )
+    first = math.sqrt(2 / 9.81)
+    # The first impact takes 1 - e^2 of m g h; the second one comes after 0.9 s.
+    sweep = ball.sweep(
+        {"e": [0.5, 0.8]},
+        until=0.8,
+        reduce={
+            "first": "first(floor impact)",
+            "last": "last(floor impact)",
+            "rate": "frequency(floor impact)",
+            "power": "power(floor)",
+        },
+    )
+    np.testing.assert_allclose(sweep["first"], [first, first], rtol=1e-12)
+    np.testing.assert_array_equal(sweep["first"], sweep["last"])
+    np.testing.assert_allclose(sweep["rate"], [1 / 0.8, 1 / 0.8], rtol=1e-12)
+    np.testing.assert_allclose(sweep["power"], [0.75 * 19.62 / 0.8, 0.36 * 19.62 / 0.8], rtol=1e-9)
+
+
+def test_a_folder_with_other_files_is_not_used(oscillator, tmp_path):
+    (tmp_path / "notes.tmp").write_text("mine")
+    with pytest.raises(ValueError, match="holds no sweep"):
+        oscillator.sweep({"k": [1.0, 2.0]}, until=0.1, out=tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["notes.tmp"]
 
 
 def test_runs_that_fail_are_rows(oscillator):

@@ -93,6 +93,20 @@ impl UnilateralState {
         (touches, closes)
     }
 
+    /// Whether the gap of an open contact is closed and at rest, up to rounding: whether it opens there is for forces to say.
+    pub fn rests_at_gap<S: System>(
+        &self,
+        system: &S,
+        place: (f64, &S::Vector, &S::Vector),
+        contact: usize,
+    ) -> bool {
+        let here = self.kinematics(system, place);
+        let touches = |k: usize| k == contact || self.modes()[k] != Mode::Open;
+        let rest = self.rest(&here, self.speed, touches);
+        let rate = here.rates[2 * contact].abs();
+        here.is_gap_closed(contact) && rate <= here.rate_rounding(2 * contact).max(rest)
+    }
+
     /// The gap that is negative by more than rounding, if there is one, and by how much.
     pub fn penetrated<S: System>(
         &self,
@@ -191,7 +205,7 @@ impl UnilateralState {
                 friction,
                 known_normal: known_normal[place],
             },
-            // The contact that it leans on comes before it.
+            // The contact on which it depends comes before it.
             Some(_) => ContactUnknowns::OnCarrier {
                 friction,
                 known_normal: known_normal[place - 1],
@@ -260,7 +274,7 @@ impl UnilateralState {
                 let given: Vec<[f64; 2]> = (colliding.iter().zip(&compression))
                     .map(|(&k, impulse)| [here.restitution(k)[0] * impulse[0], 0.0])
                     .collect();
-                // Nothing is given along the normal of a contact that leans on another one: it has no impulse there.
+                // Nothing is given along the normal of a contact that depends on another one: it has no impulse there.
                 let known_normal: Vec<f64> = given.iter().map(|given| given[0]).collect();
                 let Ok(expansion) = solved(&known_normal, &after(&middle, &given)) else {
                     told.jammed.extend_from_slice(colliding);

@@ -51,6 +51,8 @@ pub(crate) struct SteppedContacts {
     pub shared_otherwise: Vec<usize>,
     /// Contacts whose friction permitted no rates with their restitution: they met without.
     pub jammed: Vec<usize>,
+    /// Contacts that touched and gave no impulse, since none of all contacts together were found: they were open in the middle of the step.
+    pub left_out: Vec<usize>,
 }
 
 clone_into_memory!(SteppedContacts {
@@ -63,6 +65,7 @@ clone_into_memory!(SteppedContacts {
     energy_added,
     shared_otherwise,
     jammed,
+    left_out,
 });
 
 impl SteppedContacts {
@@ -74,6 +77,7 @@ impl SteppedContacts {
         self.penetrated.clear();
         self.shared_otherwise.clear();
         self.jammed.clear();
+        self.left_out.clear();
         (self.work, self.lost, self.energy_added) = (0.0, 0.0, 0.0);
     }
 }
@@ -289,7 +293,7 @@ impl UnilateralState {
         of_forces.extend(pairs.map(|(free, before)| free - before));
     }
 
-    /// Writes the courses of the gaps of contacts that touch; what leans on another contact has that one's.
+    /// Writes the courses of the gaps of contacts that touch; what depends on another contact has that one's.
     fn write_courses(
         &self,
         here: &ContactKinematics,
@@ -424,6 +428,7 @@ impl UnilateralState {
             &mut stepped.shared_otherwise,
         );
         contacts_at(active, &impulses.jammed, &mut stepped.jammed);
+        contacts_at(active, &impulses.left_out, &mut stepped.left_out);
         write_after(meeting, (free, &impulses.all), after);
         let mut drives = Drives::new(system, (t, q), drives);
         for (place, (&k, &impulse)) in active.iter().zip(&impulses.all).enumerate() {

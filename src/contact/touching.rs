@@ -17,7 +17,7 @@ use std::vec::Vec;
 
 use super::kinematics::{ContactKinematics, ROUNDING, contacts_with_face, least_sizes};
 use super::nearby::{Nearby, StateBox};
-use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
+use super::{ContactTrouble, ImpactLaw, ImpactOrder, Mode, Painleve};
 use crate::at::At;
 use crate::shared_workspace::SharedWorkspace;
 use crate::{Pivot, Singular, StepError, System, Vector};
@@ -35,39 +35,6 @@ const ROUNDING_OF_FORCES: f64 = 1e-11;
 /// A slip that began from rest has the direction of the force that began it until it is this many times what it began with: from then on its own
 /// differs from that by no more than a thousandth.
 const BEGUN: f64 = 1e3;
-
-/// What a closed contact does, or that it is open.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mode {
-    /// It does not touch.
-    Open,
-    /// It touches and slips, forward or backward; 0 where it has no friction.
-    Slides(f64),
-    /// It touches and slips in space, in this direction, of length 1: that of the slip when the step began. A slip that passes through
-    /// rest is continued as if it went backwards along it.
-    SlidesAlong([f64; 2]),
-    /// It touches and does not slip.
-    Sticks,
-}
-
-impl Mode {
-    /// Whether contacts do the same, in whatever direction they slip.
-    pub fn is_like(self, other: Mode) -> bool {
-        match (self, other) {
-            (Mode::SlidesAlong(_), Mode::SlidesAlong(_)) => true,
-            _ => self == other,
-        }
-    }
-
-    /// The direction of the slip along both tangents; 0 where there is none.
-    pub fn direction(self) -> [f64; 2] {
-        match self {
-            Mode::Slides(sign) => [sign, 0.0],
-            Mode::SlidesAlong(heading) => heading,
-            Mode::Open | Mode::Sticks => [0.0; 2],
-        }
-    }
-}
 
 pub(crate) use crate::contact_law::Margin;
 

@@ -10,7 +10,7 @@
 //! 0 ≤ β₊ ⊥ σ + γₜ ≥ 0,   0 ≤ β₋ ⊥ σ − γₜ ≥ 0,   0 ≤ σ ⊥ μ (Λₙ + Λ₀) − β₊ − β₋ ≥ 0
 //! ```
 //!
-//! What resists rolling leans on the contact that rolls: its torque is `|τ| ≤ ρ Λₙ` of that contact's normal, against the rate of
+//! Rolling resistance depends on the contact that rolls: its torque is `|τ| ≤ ρ Λₙ` of that contact's normal, against the rate of
 //! rotation, in the same form.
 //!
 //! (D. E. Stewart, J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.) Where it is known how a contact

@@ -119,15 +119,29 @@ sentences! { Error, written to f:
             ": Coulomb's law with rigid bodies does not determine what happens (Painlevé's paradox)"
         )
     }
-    DependentConstraint { constraint, ratio, t } =>
-        "the constraint `{constraint}` becomes dependent on others at t = {t} s, and shorter steps do not help (elimination \
-         leaves {ratio:.1e} of its element on the diagonal of G M⁻¹ Gᵀ): the reactions are not unique there. Leave out a constraint \
-         that follows from others, or avoid the pose with other start values or other parameters"
+    DependentConstraint { constraint, ratio, t } => {
+        if ratio.0 == f64::INFINITY {
+            return write!(
+                f,
+                "the row of the constraint `{constraint}` in G M⁻¹ Gᵀ has no finite value at t = {t} s, {WITHOUT_VALUE}"
+            );
+        }
+        write!(
+            f,
+            "the constraint `{constraint}` becomes dependent on others at t = {t} s, and shorter steps do not help (elimination \
+             leaves {ratio:.1e} of its element on the diagonal of G M⁻¹ Gᵀ): the reactions are not unique there. Leave out a constraint \
+             that follows from others, or avoid the pose with other start values or other parameters"
+        )
+    }
     InconsistentConstraints { constraint, with, residual, t } => {
         if with.is_empty() {
             write!(f, "the constraint `{constraint}` cannot be met near the state at t = {t} s")?;
         } else {
             write!(f, "the constraint `{constraint}` contradicts {with} at t = {t} s")?;
+        }
+        if residual.0 > 10.0 {
+            // Terms that vanish are no scale.
+            return write!(f, ": where the search ended, its residual is far from 0");
         }
         write!(f, ": its residual is {residual:.1e} of the size of its terms")
     }
@@ -177,6 +191,9 @@ sentences! { Error, written to f:
     }
     EventNotFinite { event, t } =>
         "the function of event `{event}` is not a number at t = {t} s"
+    ZerosNotIsolated { watched, t, values } =>
+        "the zeros of `{watched}` could not be told from each other with {values} values in the step from t = {t} s: it is the round-off of \
+         numbers that are far larger than it, or oscillates too often in one step"
     OutsideRun { t, from, to } =>
         "t = {t} s is outside of the run, which goes from {from} s to {to} s"
     NoEnergyBalance => "no energy balance was computed; set `energy_balance(true)`"
@@ -185,6 +202,9 @@ sentences! { Error, written to f:
     StepsForgotten => "the steps of this run were not kept; leave out `forget_steps()`"
     Stepper { message } => "{message}"
 }
+
+/// Why an element of a matrix has no finite value, and what to do.
+const WITHOUT_VALUE: &str = "since numbers overflow (they exceed 1.8e308) or a formula is undefined there. Check the sizes of parameters and of start values";
 
 /// Writes why the mass matrix cannot be inverted, and what to do.
 fn no_inertia(
@@ -195,6 +215,12 @@ fn no_inertia(
 ) -> fmt::Result {
     /// Elimination that leaves more than this has not been stopped by rounding.
     const MORE_THAN_ROUNDING: f64 = 1e-9;
+    if ratio == f64::INFINITY {
+        return write!(
+            f,
+            "the mass matrix has no finite value in the row of the coordinate `{coordinate}` at t = {t} s, {WITHOUT_VALUE}"
+        );
+    }
     if ratio.is_finite() && ratio.abs() > MORE_THAN_ROUNDING {
         return write!(
             f,

@@ -72,6 +72,16 @@ pub enum Warning {
         /// The number of instants, or of steps of time stepping, at which it was so.
         instants: usize,
     },
+    /// In a step of time stepping no impulses of all contacts that touched were found that obey the laws of contact: only contacts that were closed in the middle of the
+    /// step gave impulses, and what others penetrated was left by a displacement.
+    ContactsLeftOut {
+        /// The end of the first such step, in s.
+        t: f64,
+        /// The contacts that gave no impulses in it, although they were closed before it or closed within it.
+        contacts: std::vec::Vec<String>,
+        /// The number of such steps.
+        steps: usize,
+    },
     /// Unilateral contacts changed too often for each instant to be located,
     /// and the run changed to time stepping, whose error nothing bounds.
     HandedOver {
@@ -140,6 +150,17 @@ sentences! { Warning, written to f:
             "the motion depends on how {contacts} share their load at t = {t} s: the distribution of equally stiff contacts \
              could not be computed, and another possible one was taken{more}"
         )
+    }
+    ContactsLeftOut { t, contacts, steps } => {
+        write!(
+            f,
+            "no impulses of all contacts were found in the step of time stepping that ended at t = {t} s: only contacts that were closed in its middle \
+             gave impulses, and not {contacts}"
+        )?;
+        match *steps {
+            0 | 1 => Ok(()),
+            steps => write!(f, "; there were {steps} such steps"),
+        }
     }
     HandedOver { t, step, crowd, times, back_at } => {
         match crowd {

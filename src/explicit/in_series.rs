@@ -1,6 +1,6 @@
 //! Steps by Taylor series of several trajectories at once, with the bits of a [`Stepper`](crate::Stepper).
 //!
-//! All lanes are expanded together at the ends of the steps that they try. A lane keeps the coefficients at the beginning of
+//! All lanes are expanded together at the ends of the steps that they attempt. A lane keeps the coefficients at the beginning of
 //! its step until an attempt is good. A lane that has just received a trajectory has no coefficients yet: its first attempt is a step
 //! of length zero.
 
@@ -41,7 +41,7 @@ pub(super) struct InSeries<V, L, const W: usize> {
     end: Lanes<W>,
     now: Point<V, Lanes<W>>,
     ahead: Point<V, Lanes<W>>,
-    /// The coefficients of the motion through the present states, and through the ends of the steps that are tried.
+    /// The coefficients of the motion through the present states, and through the ends of the steps that are attempted.
     coefficients: [Vec<V>; 2],
     lists: Box<L>,
     lanes: [Lane; W],
@@ -319,7 +319,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         false
     }
 
-    /// Has a lane try a shorter step, since the motion is not its series at the end of this one.
+    /// Has a lane attempt a shorter step, since the motion is not its series at the end of this one.
     fn retry(&mut self, i: usize, h: f64) -> Outcome {
         let (lane, t) = (&mut self.lanes[i], self.now.t[i]);
         let is_first = lane.control.is_first;

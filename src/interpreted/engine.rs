@@ -141,6 +141,9 @@ impl Compiled {
 impl CodeOfSeries {
     /// For a series.
     pub(super) fn new(series: &Arc<Series>) -> CodeOfSeries {
+        if !series.is_symmetric {
+            return CodeOfSeries::default();
+        }
         let library = lagrangian_jit::SeriesLibrary::new(series.clone());
         CodeOfSeries {
             library: Some(Arc::new(library)),

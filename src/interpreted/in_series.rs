@@ -324,8 +324,16 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         };
         let mut looks = vec![1.0];
         for index in 0..self.system.program.assumptions.len() {
-            looks.extend(roots::isolating_fractions(|theta| {
-                Ok(margin(theta, index))
+            let found = roots::isolating_fractions(|theta| Ok(margin(theta, index)), || Ok(()));
+            looks.extend(found.map_err(|why: roots::NotIsolated<Error>| {
+                let t = self.t.to_f64();
+                let [q, v] = [&self.q, &self.v]
+                    .map(|of| of.iter().map(|x| x.to_f64()).collect::<Vec<f64>>());
+                let mut assumptions = self.system.assumptions(t, &q, &v, &inputs);
+                let text = assumptions
+                    .nth(index)
+                    .map_or("?", |assumption| assumption.text);
+                why.explain(text, t)
             })?);
         }
         looks.sort_by(f64::total_cmp);

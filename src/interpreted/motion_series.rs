@@ -35,6 +35,7 @@ struct Shared {
 }
 
 /// A series, or why there is none.
+#[derive(Debug)]
 pub(super) struct Known {
     pub series: Result<Arc<Series>, String>,
     /// Its machine code.
@@ -44,7 +45,7 @@ pub(super) struct Known {
 }
 
 impl Known {
-    fn of(series: Result<Arc<Series>, String>) -> Known {
+    pub(super) fn of(series: Result<Arc<Series>, String>) -> Known {
         let code = series.as_ref().map(CodeOfSeries::new);
         Known {
             code: code.unwrap_or_default(),

@@ -37,11 +37,8 @@ enum Spec {
     Text { name: String, text: String },
 }
 
-/// The series of a machine that was read.
-enum SeriesSource {
-    Derived(Result<ProvedSeries, NoSeries>),
-    Text(SeriesText),
-}
+/// A program, its series if that was derived at once, and the texts from which it can be derived later.
+type Derived = (Proved, Option<Result<ProvedSeries, NoSeries>>, SeriesText);
 
 impl InterpretedMachine {
     /// The machine of a spec in a file.
@@ -144,14 +141,15 @@ impl Reading {
             .map(thread::JoinHandle::join);
         match derived {
             Ok(Ok(machine)) => {
-                let (program, series) = machine?;
+                let (program, series, text) = machine?;
                 let machine = InterpretedMachine::new(program);
-                Ok(match series {
-                    SeriesSource::Derived(series) => machine.with_series(series),
-                    SeriesSource::Text(text) => {
-                        machine.with_series_on_demand(move || text.derive())
-                    }
-                })
+                let for_contacts = text.clone();
+                let machine = match series {
+                    Some(series) => machine.with_series(series),
+                    None => machine.with_series_on_demand(move || text.derive()),
+                };
+                Ok(machine
+                    .with_contact_series_on_demand(move || for_contacts.derive_with_contacts()))
             }
             Ok(Err(panic)) => std::panic::resume_unwind(panic),
             Err(error) => Err(unreadable(
@@ -161,7 +159,7 @@ impl Reading {
         }
     }
 
-    fn derive(self) -> Result<(Proved, SeriesSource), Error> {
+    fn derive(self) -> Result<Derived, Error> {
         let (name, text) = match self.spec {
             Spec::Text { name, text } => (name, text),
             Spec::File(path) => {
@@ -194,18 +192,15 @@ impl Reading {
         let files = files.read;
         match model.and_then(|model| Compiled::for_runs(model, &mut report)) {
             Some(compiled) => {
-                let series = if self.series {
-                    SeriesSource::Derived(ProvedSeries::derive(&compiled.model))
-                } else {
-                    SeriesSource::Text(SeriesText {
-                        name,
-                        text,
-                        constants,
-                        files,
-                        ..SeriesText::default()
-                    })
+                let derived = self.series.then(|| ProvedSeries::derive(&compiled.model));
+                let text = SeriesText {
+                    name,
+                    text,
+                    constants,
+                    files,
+                    ..SeriesText::default()
                 };
-                Ok((compiled.program, series))
+                Ok((compiled.program, derived, text))
             }
             None => Err(everything_wrong(&report, &sources)),
         }

@@ -11,6 +11,7 @@ use lagrangian_scalar::Interval;
 use lagrangian_spec::model;
 
 use super::InterpretedMachine;
+use super::closed_series::ExpandingClosed;
 use super::contact_parts::RunningParts;
 use super::expanding::Expanding;
 use super::motion_series::{self, MotionSeries};
@@ -18,8 +19,8 @@ use super::named::{Named, Names, quantities};
 use super::running::{Running, at};
 use crate::shared_workspace::SharedWorkspace;
 use crate::{
-    Assumption, Compliance, Constraint, ContactQuantity, ImpactLaw, ImpactOrder, Painleve, Pivot,
-    Quantity, Singular, System, UnilateralContact, accelerations_with_friction,
+    Assumption, Compliance, Constraint, ContactMode, ContactQuantity, ImpactLaw, ImpactOrder,
+    Painleve, Pivot, Quantity, Singular, System, UnilateralContact, accelerations_with_friction,
     multipliers_with_friction,
 };
 
@@ -45,6 +46,7 @@ pub struct InterpretedSystem {
     /// Whether it has work and losses that are not always 0.
     has_powers: [bool; 2],
     pub(super) expanding: SharedWorkspace<Expanding>,
+    expanding_closed: SharedWorkspace<ExpandingClosed>,
 }
 
 impl InterpretedSystem {
@@ -78,6 +80,10 @@ impl InterpretedSystem {
             has_state_energy: machine.program.function(Role::StateEnergy).is_some(),
             has_powers: machine.program.has_powers(),
             expanding: SharedWorkspace::new(Expanding::new(machine.machine_code.clone())),
+            expanding_closed: SharedWorkspace::new(ExpandingClosed::new(
+                machine.closed_series.clone(),
+                machine.machine_code.clone(),
+            )),
         }
     }
 
@@ -223,9 +229,12 @@ impl System for InterpretedSystem {
     fn series_derivation(&self) -> Option<f64> {
         let may_have_one = self.program.contacts.is_empty()
             && self.program.constraints.iter().all(|of| of.holonomic);
-        let evaluations = || match may_have_one {
-            true => motion_series::derivation(&self.program),
-            false => f64::INFINITY,
+        let evaluations = || {
+            if may_have_one {
+                motion_series::derivation(&self.program)
+            } else {
+                f64::INFINITY
+            }
         };
         self.series.is_on_demand().then(evaluations)
     }
@@ -243,6 +252,36 @@ impl System for InterpretedSystem {
         let at = (t, [q.as_slice(), v.as_slice(), u.values.as_slice()]);
         let expanded = expanding.expand((self.series.known(), parameters), at, coefficients);
         expanded.map_err(|singular| singular_row(&self.program, singular))
+    }
+
+    fn has_closed_series(&self, contacts: &[ContactMode]) -> bool {
+        self.expanding_closed.lock().has(contacts)
+    }
+
+    fn closed_series(
+        &self,
+        contacts: &[ContactMode],
+        t: [f64; 2],
+        (q, v): (&Vec<f64>, &Vec<f64>),
+        u: &Named,
+        coefficients: &mut [Vec<f64>],
+    ) -> Result<(), Singular> {
+        let parameters = || self.running.lock().interpreter.parameters().to_vec();
+        let at = (t, [q.as_slice(), v.as_slice(), u.values.as_slice()]);
+        let mut expanding = self.expanding_closed.lock();
+        let expanded = expanding.expand(contacts, parameters, at, coefficients);
+        // Which contact it is matters to nobody: the run goes on by another method.
+        expanded.map_err(|singular| {
+            let own = self.program.dimension() + self.program.constraints.len();
+            let coordinate = singular.coordinate.min(own.saturating_sub(1));
+            singular_row(
+                &self.program,
+                program::Singular {
+                    coordinate,
+                    ..singular
+                },
+            )
+        })
     }
 
     fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {

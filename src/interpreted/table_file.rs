@@ -68,6 +68,27 @@ impl Display for TableFileError {
 
 impl core::error::Error for TableFileError {}
 
+/// Why a line would not be read as it was written, and the column of the character that causes it: it contains a line end of another kind, or
+/// its cells are separated by tabs.
+fn misread(line: &str, is_header_of_commas: bool) -> Option<(&'static str, usize)> {
+    let at = |letter: char| {
+        line.chars()
+            .position(|other| other == letter)
+            .map(|at| at + 1)
+    };
+    if let Some(at) = at('\r') {
+        return Some((
+            "the line ends with a carriage return alone: save the table with line feeds",
+            at,
+        ));
+    }
+    let tab = at('\t').filter(|_| is_header_of_commas && !line.contains(','))?;
+    Some((
+        "columns are separated by commas or semicolons, not by tabs",
+        tab,
+    ))
+}
+
 /// The largest number of columns that a message lists.
 const MOST_LISTED: usize = 12;
 
@@ -96,6 +117,9 @@ impl TableFile {
                 separator = ';';
             }
             let place = |column: usize| (number + 1, column);
+            if let Some((message, at)) = misread(line, is_header && separator == ',') {
+                return Err(file.wrong(Some(place(at)), message));
+            }
             let Some(cells) = cells(line, separator, is_header) else {
                 return Err(file.wrong(Some(place(1)), "a quote is not closed"));
             };

@@ -6,10 +6,11 @@ use std::vec::Vec;
 
 use super::{LastInterpolant, Model, Run};
 use crate::balance::Quadratures;
-use crate::event::{self, Places, Triple, step_motion};
+use crate::event::{self, Places, ShallStop, Triple, Unsearched, step_motion};
 use crate::inputs::{InputLaw, LawInPiece};
 use crate::interpolant::Interpolant;
 use crate::roots;
+use crate::settings::asked_to_stop;
 use crate::stepper::Stepper;
 use crate::taylor::MotionBounds;
 use crate::{Error, Machine, System, Vector};
@@ -251,15 +252,21 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     pub(super) fn assumption_ended(
         &mut self,
         interpolant: &mut LastInterpolant<M>,
-    ) -> Result<Option<(f64, String)>, Error> {
+    ) -> Result<Option<(f64, String)>, Unsearched> {
         let Self {
             model,
             stepper,
             held,
+            callbacks,
             ..
         } = self;
-        let Some(looks) = model.isolating_fractions_of_assumptions(stepper, interpolant, held)?
-        else {
+        let mut shall_stop = asked_to_stop::<M>(&mut callbacks.stop, model.system);
+        let looks = model.isolating_fractions_of_assumptions(
+            stepper,
+            (interpolant, &mut shall_stop),
+            held,
+        )?;
+        let Some(looks) = looks else {
             return Ok(None);
         };
         let interpolant = step_motion(interpolant, stepper, model.system)?;
@@ -285,9 +292,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     fn isolating_fractions_of_assumptions<A: Quadratures<S>>(
         &self,
         stepper: &mut Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
-        interpolant: &mut Option<Interpolant<S::Vector>>,
+        (interpolant, shall_stop): (
+            &mut Option<Interpolant<S::Vector>>,
+            ShallStop<'_, '_, S::Vector>,
+        ),
         held: &mut Held<S::Vector>,
-    ) -> Result<Option<Vec<f64>>, Error> {
+    ) -> Result<Option<Vec<f64>>, Unsearched> {
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
         let count = self.system.assumptions(t, q, v, stepper.inputs()).len();
         if count == 0 {
@@ -333,7 +343,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         // All searches begin with the same fractions.
         let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
         for index in (0..count).filter(|index| places[*index] == Some(Places::All)) {
-            looks.extend(roots::isolating_fractions(|theta| {
+            let margin = |theta: f64| {
                 let found = known.iter().find(|(other, _)| *other == theta);
                 let state = match found {
                     Some((_, state)) => state.clone(),
@@ -346,6 +356,16 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                     }
                 };
                 Ok(self.margin(index, state))
+            };
+            let may_continue = || event::go_on_unless(shall_stop(event::beginning(stepper)));
+            let found = roots::isolating_fractions(margin, may_continue);
+            looks.extend(found.map_err(|why| {
+                let (t, q, v) = event::beginning(stepper);
+                let mut assumptions = self.system.assumptions(t, &q, &v, stepper.inputs());
+                let text = assumptions
+                    .nth(index)
+                    .map_or("?", |assumption| assumption.text);
+                why.explain(text, t)
             })?);
         }
         looks.sort_by(f64::total_cmp);

@@ -267,14 +267,22 @@ pub(super) fn derivation_of_each<S: System>(system: &S, one_of: u64) -> Option<f
     Some(derivation / one_of.max(1) as f64)
 }
 
-/// The method to begin with at this state, for one of so many runs that share the derivation of the series.
+/// The method to begin with at this state, for one of so many runs that share the derivation of the series. With unilateral contacts it is
+/// explicit, and the run chooses between it and series after some flights.
 pub(super) fn first<S: System>(
     system: &S,
     at: (f64, &S::Vector, &S::Vector),
     tolerance: &Tolerance<S::Vector>,
     (ahead, one_of): (Ahead, u64),
 ) -> Beginning {
-    match derivation_of_each(system, one_of) {
+    let derivation = derivation_of_each(system, one_of);
+    if system.unilateral_contacts().len() != 0 {
+        return Beginning {
+            derivation: Some(derivation.unwrap_or(0.0)),
+            ..Beginning::explicit()
+        };
+    }
+    match derivation {
         Some(derivation) if WORTH * derivation > EVALUATIONS => Beginning {
             derivation: Some(derivation),
             ..Beginning::explicit()
@@ -412,9 +420,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let ((since, before), (t, tried)) = (self.choosing.begun, self.tried());
         let left = self.until - t;
         // Steps that stability limits say nothing of accuracy. Where runs share the derivation, it may be worth fewer steps than a test for stiffness takes.
-        let is_limited_by_accuracy = match self.choosing.is_shared {
-            true => self.stepper.shows_no_stiffness(),
-            false => self.stepper.is_not_stiff(),
+        let is_limited_by_accuracy = if self.choosing.is_shared {
+            self.stepper.shows_no_stiffness()
+        } else {
+            self.stepper.is_not_stiff()
         };
         let so_far = EVALUATIONS * (tried - before) as f64;
         let to_come = so_far * (left / (t - since)).abs();

@@ -129,10 +129,14 @@ impl Interval<'_> {
     /// Whether the looks themselves show that a gap closes, or may have closed and opened again.
     fn closes(&self, k: usize) -> bool {
         let (from, to) = (self.before.clearances[k], self.now.clearances[k]);
-        let comes_back = from.rate < 0.0
-            && to.rate > 0.0
-            && from.value <= self.may_fall(to.rate.max(-from.rate));
-        to.value < 0.0 || comes_back
+        let may_reach = || from.value <= self.may_fall(to.rate.max(-from.rate));
+        to.value < 0.0 || self.turns_back(k) && may_reach()
+    }
+
+    /// Whether a gap falls at the first look, and opens and is open at the second.
+    fn turns_back(&self, k: usize) -> bool {
+        let (from, to) = (self.before.clearances[k], self.now.clearances[k]);
+        to.value >= 0.0 && from.rate < 0.0 && to.rate > 0.0
     }
 
     /// Whether a gap begins and ends within its rounding and does not fall by more at first. What has just opened, slowly, is open or closed by rounding for a
@@ -419,6 +423,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         let interpolant = step_motion(interpolant, stepper, system)?;
         let stepper = &*stepper;
+        if !touching.is_compliant(k) && interval.turns_back(k) {
+            let (t, q, v) = state_within(system, stepper, interpolant, between[0])?;
+            if touching.rests_at_gap(system, (t, &q, &v), k) {
+                // Forces have opened it, and open it further: the rate at which it falls at first is what rounding makes of rest, however slowly the forces grow.
+                return Ok(None);
+            }
+        }
         let at = |theta: f64| {
             let (t, q, v) = state_within(system, stepper, interpolant, theta)?;
             let near = touching.clearance_of(system, (t, &q, &v), k);

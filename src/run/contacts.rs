@@ -204,8 +204,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.activity
             .record_changes(self.stepper.t(), &changes_at_instant);
         let told = changes_at_instant.told.clone();
-        (self.record.unilateral).note_shared_otherwise(self.stepper.t(), &told.shared_otherwise);
-        (self.record.unilateral).note_jammed(self.stepper.t(), &told.jammed);
+        let (t, record) = (self.stepper.t(), &mut self.record.unilateral);
+        record.shared_otherwise.note(t, &told.shared_otherwise);
+        record.jammed.note(t, &told.jammed);
         if let Some(before) = stored_before {
             // What is pressed at the start holds its energy from there on.
             let stored = self.stored_now() - before;

@@ -1,7 +1,8 @@
 //! Flights of a machine with unilateral contacts, in which all of them are open: its motion is then that of the machine without contacts, which may have a
 //! Taylor series. Such a run goes by series in flights, and by `dop853` while a contact is closed.
 //!
-//! A run by [`TAYLOR`](crate::TAYLOR) does so throughout. One that chooses its method begins with `dop853` and decides once, from the flights so far, by
+//! A run by [`TAYLOR`](crate::TAYLOR) does so throughout; and while contacts are closed it goes by the series of the machine with their forces, where there is one. One that
+//! chooses its method begins with `dop853` and decides once, from the flights so far, by
 //! counts: if flights are short, most of the work is done where contacts change.
 //!
 //! * `dop853` takes a step in which it finds the change, makes its dense output, and takes the step up to the change, on average with one correction.
@@ -11,14 +12,13 @@
 use super::Run;
 use super::choosing::{
     Ahead, Beginning, EVALUATIONS, INVESTED, MEASURED, STEPS_BETWEEN_LOOKS, WORTH, by_costs,
-    derivation_of_each,
 };
 use crate::balance::Quadratures;
 use crate::contact::UnilateralState;
 use crate::inputs::InputLaw;
 use crate::methods::{Method, MethodKind};
 use crate::solution::MethodReason;
-use crate::{Error, Machine, System};
+use crate::{Error, Machine};
 
 /// The evaluations that a change in a flight takes by `dop853` beyond those of the step up to it: a step, dense output, and a correction.
 const FINDING: f64 = 2.0 * EVALUATIONS + 3.0;
@@ -30,11 +30,17 @@ const EXPANSIONS: f64 = 1.5;
 /// The evaluations that it takes to change to `dop853` and back where contacts close: a step that is rejected.
 const LANDING: f64 = EVALUATIONS;
 
+/// After so many further changes at one instant a motion with closed contacts goes by `dop853` until contacts change again: a slip that was located just before it stops, by more than
+/// its rounding, is found at the beginning of the next polynomial, again and again.
+const MOST_AT_ONCE: usize = 4;
+
 /// How the flights of a run are integrated.
 #[derive(Debug, Default)]
 pub(super) struct Flights {
     /// Whether they go by series.
     pub by_series: bool,
+    /// Whether the motion goes by series while contacts are closed, where it has one.
+    closes_by_series: bool,
     /// The evaluations that take as long as the derivation of the series, as long as the run has not decided about series; `None` once it has.
     derivation: Option<f64>,
     /// The number of steps in flights without a change, of changes at the ends of flights, and of those after which a contact is closed.
@@ -43,6 +49,8 @@ pub(super) struct Flights {
     landings: usize,
     /// Whether the present motion is a flight.
     flies: bool,
+    /// The last instant at which contacts changed, and how often they did there before.
+    last_change: (f64, usize),
 }
 
 impl Flights {
@@ -50,20 +58,9 @@ impl Flights {
     pub fn new(by_series: bool, chosen: Option<Beginning>) -> Self {
         Self {
             by_series,
+            closes_by_series: by_series,
             derivation: chosen.and_then(|beginning| beginning.derivation),
             ..Self::default()
-        }
-    }
-}
-
-impl Beginning {
-    /// The method that a run of a machine with unilateral contacts begins with.
-    ///
-    /// It is one of so many that share the derivation of the series.
-    pub fn with_contacts<S: System>(system: &S, one_of: u64) -> Self {
-        Self {
-            derivation: Some(derivation_of_each(system, one_of).unwrap_or(0.0)),
-            ..Self::explicit()
         }
     }
 }
@@ -79,11 +76,19 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             flights.landings += usize::from(!flies);
         }
         flights.flies = flies;
+        let t = self.stepper.t();
+        flights.last_change = match flights.last_change {
+            (last, times) if last == t => (last, times + 1),
+            _ => (t, 0),
+        };
         if !flights.by_series {
             return Ok(());
         }
+        let closes_by_series = flights.closes_by_series && flights.last_change.1 < MOST_AT_ONCE;
         let (method, reason) = if flies {
             (Method::TAYLOR, MethodReason::Open)
+        } else if closes_by_series && self.stepper.has_closed_series() {
+            (Method::TAYLOR, MethodReason::ClosedInSeries)
         } else {
             (Method::DOP853, MethodReason::Closed)
         };
@@ -187,7 +192,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 }
 
-/// The method of a run while a contact is closed, if its flights are by this one.
+/// The method of a run that is by this one while a contact is closed and the motion has no series.
 pub(super) fn explicit_for(method: &'static Method) -> &'static Method {
     if method.kind == MethodKind::Series {
         Method::DOP853

@@ -1,6 +1,6 @@
 //! Makes many runs, several at a time in vector lanes: a lane whose run is over takes the next one.
 //!
-//! A run in a lane is the same as alone, step by step; only the tries of steps are made for all lanes together
+//! A run in a lane is the same as alone, step by step; only the attempts of steps are made for all lanes together
 //! (`src/stepper/in_lanes.rs`). So a run has the bits that it has alone, whatever its neighbours do. Each has its own events and contacts. A run
 //! that changes its method goes on with others that have changed to the same one; steps that are neither explicit nor by series are made alone.
 
@@ -13,7 +13,7 @@ use super::{BetweenSteps, Finished, Prepared, RunOf};
 use crate::settings::TaskWithStart;
 use crate::solution::{Ending, RunResult};
 use crate::step_error::StepError;
-use crate::stepper::in_lanes::{Evaluate, LaneMask, Tries, Try, WIDTH};
+use crate::stepper::in_lanes::{Attempts, Evaluate, LaneMask, StepAttempt, WIDTH};
 use crate::{Error, Inputs, Machine};
 
 /// Fewer runs than this are made one after the other, which is faster than in lanes of which most are idle.
@@ -30,7 +30,7 @@ struct Lane<'r, 'a, 'l, M: Machine> {
     index: usize,
     run: RunOf<'r, 'a, 'l, M>,
     between: BetweenSteps,
-    next: Option<Try>,
+    next: Option<StepAttempt>,
 }
 
 /// How a run ends.
@@ -71,7 +71,7 @@ struct Runs<'r, 'a, 'l, M: Machine> {
     /// Runs that have begun and whose method is another one than that of the lanes now.
     parked: VecDeque<Lane<'r, 'a, 'l, M>>,
     ended: Vec<Option<Ended<M>>>,
-    tries: Option<Tries>,
+    attempts: Option<Attempts>,
 }
 
 /// Makes all these runs, and returns their results in the same order.
@@ -85,7 +85,7 @@ fn run_all<M: Machine>(
         ended: prepared.iter().map(|_| None).collect(),
         queue: prepared.iter_mut().enumerate(),
         parked: VecDeque::new(),
-        tries: None,
+        attempts: None,
     };
     let mut lanes: [_; WIDTH] = std::array::from_fn(|_| None);
     loop {
@@ -94,12 +94,12 @@ fn run_all<M: Machine>(
         }
         if lanes.iter().all(Option::is_none) {
             match runs.parked.front() {
-                Some(Lane { run, .. }) => runs.tries = Some(Tries::new(&run.stepper)),
+                Some(Lane { run, .. }) => runs.attempts = Some(Attempts::new(&run.stepper)),
                 None => break,
             }
             continue;
         }
-        let Some(tries) = runs.tries.as_mut() else {
+        let Some(attempts) = runs.attempts.as_mut() else {
             break;
         };
         let mut together: LaneMask = 0;
@@ -107,17 +107,17 @@ fn run_all<M: Machine>(
             if let Some(Lane { run, next, .. }) = lane
                 && let Some(next) = next
             {
-                tries.put(number, &mut run.stepper, *next);
+                attempts.put(number, &mut run.stepper, *next);
                 together |= 1 << number;
             }
         }
         match together.count_ones() {
-            few if few < FEWEST_RUNS => tries.skip(),
-            _ => tries.attempt(together, machines),
+            few if few < FEWEST_RUNS => attempts.skip(),
+            _ => attempts.attempt(together, machines),
         }
         for (number, lane) in lanes.iter_mut().enumerate() {
-            let tried = |lane: &mut Lane<'_, '_, '_, M>| lane.finish_try(number, tries);
-            if let Some(ending) = lane.as_mut().and_then(tried) {
+            let attempted = |lane: &mut Lane<'_, '_, '_, M>| lane.finish_attempt(number, attempts);
+            if let Some(ending) = lane.as_mut().and_then(attempted) {
                 end(lane, ending, &mut runs.ended);
             }
         }
@@ -138,7 +138,7 @@ fn end<M: Machine>(
 }
 
 impl<'r, 'a, 'l, M: Machine> Runs<'r, 'a, 'l, M> {
-    /// Brings the run in a lane, or else the next ones, to a try that can be made together with others. Tries that have to be made alone are
+    /// Brings the run in a lane, or else the next ones, to an attempt that can be made together with others. Attempts that have to be made alone are
     /// made at once, so that lanes stay full. The lane is empty if no run is left for the method of the lanes.
     fn refill(
         &mut self,
@@ -182,7 +182,8 @@ impl<'r, 'a, 'l, M: Machine> Runs<'r, 'a, 'l, M> {
                 continue;
             }
             // The first run decides with which method the lanes begin.
-            self.tries.get_or_insert_with(|| Tries::new(&run.stepper));
+            self.attempts
+                .get_or_insert_with(|| Attempts::new(&run.stepper));
             let mut begun = Lane {
                 index,
                 run,
@@ -196,10 +197,10 @@ impl<'r, 'a, 'l, M: Machine> Runs<'r, 'a, 'l, M> {
         }
     }
 
-    /// Whether the next try of a run is by the method of the lanes.
+    /// Whether the next attempt of a run is by the method of the lanes.
     fn fits(&self, lane: &Lane<'_, '_, '_, M>) -> bool {
-        let tries = self.tries.as_ref();
-        tries.is_some_and(|tries| tries.is_compatible_with(&lane.run.stepper))
+        let attempts = self.attempts.as_ref();
+        attempts.is_some_and(|attempts| attempts.is_compatible_with(&lane.run.stepper))
     }
 }
 
@@ -240,8 +241,8 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
         loop {
             let ended = match self.next.take() {
                 Some(of) => {
-                    let tried = self.run.stepper.end_alone(of);
-                    self.continue_after(tried)
+                    let attempted = self.run.stepper.end_alone(of);
+                    self.continue_after(attempted)
                 }
                 None => self.begin_step(),
             };
@@ -251,29 +252,29 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
         }
     }
 
-    /// Makes tries for as long as they have to be made alone; returns how the run ended if it did.
+    /// Makes attempts for as long as they have to be made alone; returns how the run ended if it did.
     fn go_on_alone(&mut self) -> Option<End> {
         while !self.run.stepper.may_try_in_lanes()
             && let Some(of) = self.next.take()
         {
-            let tried = self.run.stepper.end_alone(of);
-            if let Some(ending) = self.continue_after(tried) {
+            let attempted = self.run.stepper.end_alone(of);
+            if let Some(ending) = self.continue_after(attempted) {
                 return Some(ending);
             }
         }
         None
     }
 
-    /// Ends a try that was made in lanes; returns how the run ended if it did.
-    fn finish_try(&mut self, lane: usize, tries: &mut Tries) -> Option<End> {
+    /// Ends an attempt that was made in lanes; returns how the run ended if it did.
+    fn finish_attempt(&mut self, lane: usize, attempts: &mut Attempts) -> Option<End> {
         let of = self.next.take()?;
-        let tried = self.run.stepper.end_in_lanes(lane, of, tries);
-        self.continue_after(tried)
+        let attempted = self.run.stepper.end_in_lanes(lane, of, attempts);
+        self.continue_after(attempted)
     }
 
-    /// Continues after a try: with the next one, or the next step if this one was taken.
-    fn continue_after(&mut self, tried: Result<Option<Try>, StepError>) -> Option<End> {
-        let stepped = match tried {
+    /// Continues after an attempt: with the next one, or the next step if this one was taken.
+    fn continue_after(&mut self, attempted: Result<Option<StepAttempt>, StepError>) -> Option<End> {
+        let stepped = match attempted {
             Ok(Some(next)) => {
                 self.next = Some(next);
                 return None;

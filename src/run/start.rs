@@ -7,7 +7,7 @@ use super::reasons::{contradiction, dependences};
 use crate::constraints::{Constraints, Violation, closest};
 use crate::error::{KeptContradiction, constraint_name};
 use crate::names::rate_name;
-use crate::settings::Settings;
+use crate::settings::{Settings, Subject};
 use crate::stages::Point;
 use crate::step_error::StepError;
 use crate::tolerance::Tolerance;
@@ -180,6 +180,11 @@ impl Settings {
         Ok(until)
     }
 
+    /// Whether the call names numbers of the start to be kept.
+    pub(super) fn keeps_by_name(&self) -> bool {
+        self.kept.as_ref().is_some_and(|names| !names.is_empty())
+    }
+
     /// Which numbers of the start are kept, coordinates and rates: those that are not 0 in the result.
     pub(super) fn kept_start_values<S: System>(
         &self,
@@ -203,9 +208,15 @@ impl Settings {
                 .and_then(|rest| rest.strip_suffix(')'));
             let (level, asked) = rate.map_or((0, name.as_str()), |rate| (1, rate));
             let mut is_known = false;
+            let is_meant = |own: &str| {
+                let member = own.strip_prefix(asked);
+                member.is_some_and(|member| member.is_empty() || member.starts_with('['))
+            };
             for (j, coordinate) in system.coordinates().enumerate() {
-                let member = coordinate.name.strip_prefix(asked);
-                if member.is_some_and(|member| member.is_empty() || member.starts_with('[')) {
+                // A state of first order is the rate of its integral.
+                let is_state = rate.is_none() && is_meant(&rate_name(coordinate.name));
+                if is_state || is_meant(coordinate.name) {
+                    let level = if is_state { 1 } else { level };
                     kept[level].as_mut_slice()[j] = 1.0;
                     is_known = true;
                 }
@@ -234,7 +245,19 @@ impl Settings {
     }
 }
 
-pub(super) fn check_parameters<M: Machine>(machine: &M) -> Result<(), Error> {
+/// The equations of motion of what is to be run, for parameters that are finite.
+pub(super) fn prepared<M: Machine>(subject: Subject<'_, M>) -> Result<M::System, Error> {
+    match subject {
+        Subject::Machine(machine) => {
+            check_parameters(machine)?;
+            Ok(machine.prepare())
+        }
+        // These equations were checked when the run began that this one resumes.
+        Subject::System(system) => Ok(system),
+    }
+}
+
+fn check_parameters<M: Machine>(machine: &M) -> Result<(), Error> {
     let mut parameters = machine.parameters();
     match parameters.find(|(_, value)| !value.is_finite()) {
         Some((parameter, value)) => Err(Error::ParameterNotFinite {

@@ -54,8 +54,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         } = &mut of_step;
         let impacts = &stepped.impacts;
         let t = self.stepper.t();
-        (self.record.unilateral).note_shared_otherwise(t, &stepped.shared_otherwise);
-        (self.record.unilateral).note_jammed(t, &stepped.jammed);
+        let record = &mut self.record.unilateral;
+        record.shared_otherwise.note(t, &stepped.shared_otherwise);
+        record.jammed.note(t, &stepped.jammed);
+        record.left_out.note(t, &stepped.left_out);
         let energy_added = stepped.energy_added / stepped.penetrated.len().max(1) as f64;
         for k in &stepped.penetrated {
             self.record.unilateral.losses[*k] -= energy_added;

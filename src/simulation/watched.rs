@@ -251,7 +251,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     }
 
     /// Ends the run after the first step at whose end `condition` holds. To end at the exact instant,
-    /// use [`until_event`](Self::until_event).
+    /// use [`until_event`](Self::until_event). Where a search for the zeros of a function takes long within a step, as of one that oscillates thousands of
+    /// times, it is asked again for the state at the beginning of this step, and the run ends there.
     pub fn stop_if(
         mut self,
         condition: impl FnMut(&State<Coordinates<M>>) -> bool + Clone + Send + 'a,

@@ -52,8 +52,10 @@ pub enum MethodReason {
     NoSeries,
     /// All unilateral contacts have opened: the motion has a Taylor series, by which this run goes on then.
     Open,
-    /// A unilateral contact has closed, where a run by Taylor series goes on by an explicit method.
+    /// A unilateral contact has closed, in a way in which a run by Taylor series goes on by an explicit method.
     Closed,
+    /// A unilateral contact is closed, and the motion has a Taylor series, by which this run goes on then.
+    ClosedInSeries,
 }
 
 impl Display for MethodReason {
@@ -82,6 +84,7 @@ impl Display for MethodReason {
             Self::NoSeries => f.write_str("the series has no value there"),
             Self::Open => f.write_str("all contacts are open"),
             Self::Closed => f.write_str("a contact is closed"),
+            Self::ClosedInSeries => f.write_str("a contact is closed, and the motion has a series"),
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::implicit::Implicit;
 use crate::implicit::jacobian::Jacobian;
 use crate::inputs::InputLaw;
 use crate::methods::{MAX_STAGES, Method, MethodKind};
-use crate::taylor::Taylor;
+use crate::taylor::{GREATEST_DEFECT, ROUNDING_UNITS, Taylor, defect, size_of_rate};
 use crate::tolerance::Tolerance;
 use crate::{StepError, System, Vector};
 use std::boxed::Box;
@@ -31,22 +31,73 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.switch_method(method, self.longest)
     }
 
-    /// Continues with `method` where contacts have just changed and the accelerations are known: with an explicit one, or by series if all contacts are open.
+    /// Whether the motion has a series while contacts do what they do now, of which one is closed, and this series has a value here.
+    pub(crate) fn has_closed_series(&mut self) -> bool {
+        let Self {
+            model,
+            now,
+            control,
+            ..
+        } = self;
+        let Some(touching) = &model.touching else {
+            return false;
+        };
+        // Dependent rows have no series, and where they are nearly so it is not accurate.
+        let constraints = model.constraints.as_ref();
+        if constraints.is_some_and(|constraints| constraints.redundant || constraints.at_fork) {
+            return false;
+        }
+        let (system, contacts) = (model.system.get(), touching.modes());
+        if !system.has_closed_series(contacts) {
+            return false;
+        }
+        model.set_inputs(now.t, &now.q, &now.v);
+        let mut taylor = Taylor::new(&self.tolerance);
+        control.work.evaluations += 1;
+        taylor
+            .expand(model.in_series(), now, &model.inputs, false)
+            .is_ok()
+            && self.is_motion(&mut taylor)
+    }
+
+    /// Whether a series through the present state has the accelerations that are known here, but for less than the error that a step by it may have.
+    fn is_motion(&self, taylor: &mut Taylor<S::Vector>) -> bool {
+        let Self {
+            now, k, tolerance, ..
+        } = self;
+        let known = k[self.newest].as_slice();
+        let mut found = now.v.zeros_like();
+        taylor.accelerations(false, &mut found);
+        let h = taylor.length(tolerance).min((self.end - now.t).abs());
+        let absolute = tolerance.absolute.as_slice();
+        let coordinates = known.iter().zip(found.as_slice()).enumerate();
+        let coordinates = coordinates.map(|(i, (known, found))| {
+            let size = size_of_rate(now.q.as_slice()[i], now.v.as_slice()[i]);
+            [size, *known, known - found, absolute[i]]
+        });
+        let roundings = [tolerance.relative, ROUNDING_UNITS * f64::EPSILON];
+        defect(h, coordinates, roundings) <= GREATEST_DEFECT
+    }
+
+    /// Continues with `method` where contacts have just changed and the accelerations are known: with an explicit one, or by series.
     pub(crate) fn change_where_contacts_did(
         &mut self,
         method: &'static Method,
     ) -> Result<(), StepError> {
         let is_series = method.kind == MethodKind::Series;
-        if !core::ptr::eq(self.method, method) {
+        let changes = !core::ptr::eq(self.method, method);
+        if changes {
             if self.taylor.is_some() {
                 self.control.step *= SHORTER;
             }
             self.taylor = is_series.then(|| Box::new(Taylor::new(&self.tolerance)));
-            self.forget_powers();
             self.method = method;
             // There is no step of the new method yet that could be undone.
             self.k.swap(0, self.newest);
             self.newest = 0;
+        }
+        if changes || is_series {
+            self.forget_powers();
         }
         if is_series {
             self.control.work.evaluations += 1;
@@ -69,7 +120,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
     /// Sets the powers within the last step to 0 for steps that do not evaluate any: they may be those of contacts that were closed.
     fn forget_powers(&mut self) {
-        if !self.takes_powers() && self.model.touching.is_some() {
+        if !self.takes_powers_now() && self.model.touching.is_some() {
             for stage in 1..MAX_STAGES {
                 self.quadratures.take(stage, 0.0, 0.0);
                 self.quadratures.set_contact_shares(stage, &[]);

@@ -2,10 +2,10 @@
 //!
 //! Each stepper chooses the length of its step and decides about the attempt: only the stages in between are computed for all of them
 //! together, by the same sums as in a single stepper. So each has the bits that it has alone. A lane in which something is exceptional
-//! (accelerations without a value or an infinite error) is tried again alone, which then gives the error.
+//! (accelerations without a value or an infinite error) is attempted again alone, which then gives the error.
 //!
 //! With constraints, each new point is projected alone, and its error is estimated there. While a unilateral contact is closed, which
-//! other equations describe, a stepper tries its steps alone.
+//! other equations describe, a stepper attempts its steps alone.
 //!
 //! In steps by Taylor series, the expansions at their ends and the powers along them are computed together (`in_lanes/series.rs`).
 
@@ -57,16 +57,16 @@ pub(crate) trait Evaluate {
     }
 }
 
-/// A step that is being tried: the length of the attempt, whether it would be the last step, and the limits on its length.
+/// A step that is being attempted: the length of the attempt, whether it would be the last step, and the limits on its length.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Try {
+pub(crate) struct StepAttempt {
     h: f64,
     last: bool,
     limits: StepLimits,
 }
 
 /// The data of the steps of all lanes.
-pub(crate) struct Tries {
+pub(crate) struct Attempts {
     method: &'static Method,
     tolerance: Tolerance<Vec<Wide>>,
     before: Point<Vec<Wide>, Wide>,
@@ -110,59 +110,59 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// Begins a step and its first attempt.
-    pub(crate) fn begin_in_lanes(&mut self) -> Result<Try, StepError> {
+    pub(crate) fn begin_in_lanes(&mut self) -> Result<StepAttempt, StepError> {
         if self.changed {
             self.refresh_acceleration()?;
         }
         if self.taylor.is_some() {
             self.choose_length()?;
         }
-        let limits = self.begin_tries()?;
-        Ok(self.next_try(limits))
+        let limits = self.begin_attempts()?;
+        Ok(self.next_attempt(limits))
     }
 
-    fn next_try(&mut self, limits: StepLimits) -> Try {
+    fn next_attempt(&mut self, limits: StepLimits) -> StepAttempt {
         let (h, last) = self.choose(limits);
-        Try { h, last, limits }
+        StepAttempt { h, last, limits }
     }
 
     /// Ends an attempt; returns the next one, or `None` if the step was taken.
     pub(crate) fn end_in_lanes(
         &mut self,
         lane: usize,
-        of: Try,
-        tries: &mut Tries,
-    ) -> Result<Option<Try>, StepError> {
-        if let Some(series) = &mut tries.series {
-            let has_coefficients = tries.succeeded >> lane & 1 == 1;
-            let tried = series.end(lane, self, (of.h, has_coefficients));
-            return self.decide_on(of, tried);
+        of: StepAttempt,
+        attempts: &mut Attempts,
+    ) -> Result<Option<StepAttempt>, StepError> {
+        if let Some(series) = &mut attempts.series {
+            let has_coefficients = attempts.succeeded >> lane & 1 == 1;
+            let attempted = series.end(lane, self, (of.h, has_coefficients));
+            return self.decide_on(of, attempted);
         }
-        let tried = match tries.take(lane, self) {
-            Some(_) if tries.have_constraints => self.finish(of.h),
+        let attempted = match attempts.take(lane, self) {
+            Some(_) if attempts.have_constraints => self.finish(of.h),
             Some(error) => Ok(error),
             None => self.attempt(of.h, of.last),
         };
-        self.decide_on(of, tried)
+        self.decide_on(of, attempted)
     }
 
     /// Makes an attempt alone and ends it like [`end_in_lanes`](Self::end_in_lanes).
-    pub(crate) fn end_alone(&mut self, of: Try) -> Result<Option<Try>, StepError> {
-        let tried = if self.taylor.is_some() {
+    pub(crate) fn end_alone(&mut self, of: StepAttempt) -> Result<Option<StepAttempt>, StepError> {
+        let attempted = if self.taylor.is_some() {
             self.attempt_in_series(of.h, of.last)
         } else {
             self.attempt(of.h, of.last)
         };
-        self.decide_on(of, tried)
+        self.decide_on(of, attempted)
     }
 
     fn decide_on(
         &mut self,
-        of: Try,
-        tried: Result<f64, StepError>,
-    ) -> Result<Option<Try>, StepError> {
-        let is_taken = self.decide((of.h, of.limits), tried)?;
-        Ok((!is_taken).then(|| self.next_try(of.limits)))
+        of: StepAttempt,
+        attempted: Result<f64, StepError>,
+    ) -> Result<Option<StepAttempt>, StepError> {
+        let is_taken = self.decide((of.h, of.limits), attempted)?;
+        Ok((!is_taken).then(|| self.next_attempt(of.limits)))
     }
 
     /// Takes the powers of a stage that were evaluated in lanes. Contacts, which are open then, have none.
@@ -176,7 +176,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 }
 
-impl Tries {
+impl Attempts {
     /// For steppers that are compatible with this one.
     pub fn new<S: System, L: InputLaw<S>, A: Quadratures<S>>(of: &Stepper<'_, S, L, A>) -> Self {
         let spread = |numbers: &S::Vector| -> Vec<Wide> {
@@ -230,7 +230,7 @@ impl Tries {
         &mut self,
         lane: usize,
         of: &mut Stepper<'_, S, L, A>,
-        next: Try,
+        next: StepAttempt,
     ) {
         if let Some(series) = &mut self.series {
             return series.put(lane, of, (next.h, next.last));
@@ -253,7 +253,7 @@ impl Tries {
         self.succeeded = 0;
     }
 
-    /// Tries the steps of these lanes. The contents of the others have no effect.
+    /// Attempts the steps of these lanes. The contents of the others have no effect.
     pub fn attempt(&mut self, which: LaneMask, machines: &mut impl Evaluate) {
         if let Some(series) = &mut self.series {
             self.succeeded = series.expand(which, machines);
@@ -264,7 +264,7 @@ impl Tries {
     }
 
     /// Passes the result of an attempt to its stepper, and returns the error of the step relative to the tolerance, which is meaningless with
-    /// constraints. `None` if the step has to be tried alone.
+    /// constraints. `None` if the step has to be attempted alone.
     fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &self,
         lane: usize,
@@ -399,7 +399,7 @@ fn finite_lanes<R: Scalar<Stored = Wide>>(a: &[Wide]) -> LaneMask {
 }
 
 /// One attempt of every lane, in the widest registers available.
-struct Attempt<'a, E>(&'a mut Tries, &'a mut E);
+struct Attempt<'a, E>(&'a mut Attempts, &'a mut E);
 
 impl<E: Evaluate> Kernel<Wide> for Attempt<'_, E> {
     type Output = ();

@@ -1,15 +1,16 @@
 //! Steps by the Taylor series of the motion.
 
-use super::Stepper;
+use super::{Model, Stepper};
 use crate::attempt::{are_finite, not_finite};
 use crate::balance::Quadratures;
+use crate::contact::UnilateralState;
 use crate::control::{Control, shortest_step};
 use crate::math::larger;
 use crate::stages::Point;
 use crate::taylor::{
     GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect, size_of_rate,
 };
-use crate::{InputLaw, StepError, System, Vector};
+use crate::{ContactMode, InputLaw, StepError, System, Vector};
 
 /// A step by series of a machine with unilateral contacts is at most so many times as long as the one before it.
 pub(super) const GROWTH_IN_FLIGHT: f64 = 2.0;
@@ -23,7 +24,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Some(taylor) = taylor else { return Ok(()) };
         model.set_inputs(now.t, &now.q, &now.v);
         taylor
-            .expand(model.system.get(), now, &model.inputs, false)
+            .expand(model.in_series(), now, &model.inputs, false)
             .map_err(|singular| StepError::Singular { singular, t: now.t })
     }
 
@@ -48,12 +49,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             last_step,
             ..
         } = self.control;
-        match is_first {
-            false => GROWTH_IN_FLIGHT * last_step.abs(),
-            true if self.longest_first.is_infinite() && step == 0.0 => {
-                GROWTH_IN_FLIGHT * self.first_step().abs()
-            }
-            true => self.longest_first,
+        if !is_first {
+            GROWTH_IN_FLIGHT * last_step.abs()
+        } else if self.longest_first.is_infinite() && step == 0.0 {
+            GROWTH_IN_FLIGHT * self.first_step().abs()
+        } else {
+            self.longest_first
         }
     }
 
@@ -148,14 +149,20 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         model.project(now).map(|_| ())
     }
 
-    /// Whether powers are integrated along its steps.
+    /// Whether powers are integrated along its steps while all contacts are open.
     pub(super) fn takes_powers(&self) -> bool {
         self.quadratures.integrals().is_some() && self.model.system.get().has_powers()
     }
 
+    /// Whether powers are integrated along its steps now. Closed contacts have some, that of their friction for one.
+    pub(super) fn takes_powers_now(&self) -> bool {
+        let (_, closed) = self.model.in_series();
+        self.takes_powers() || closed.is_some() && self.quadratures.integrals().is_some()
+    }
+
     /// Evaluates the powers within a step of length `h`. The accelerations in `stage` stay there.
     pub(super) fn take_powers_along_series(&mut self, h: f64) {
-        if !self.takes_powers() {
+        if !self.takes_powers_now() {
             return;
         }
         let Self {
@@ -208,7 +215,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Some(taylor) = taylor else { return Ok(()) };
         work.evaluations += 1;
         taylor
-            .expand(model.system.get(), now, &model.inputs, true)
+            .expand(model.in_series(), now, &model.inputs, true)
             .map_err(|singular| StepError::Singular { singular, t: now.t })
     }
 
@@ -289,16 +296,25 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let mut beside = now.clone();
         crate::taylor::move_to_neighbours(&mut beside.q, &mut beside.v);
         work.evaluations += 1;
-        let expanded = taylor.expand(model.system.get(), &beside, &model.inputs, true);
+        let expanded = taylor.expand(model.in_series(), &beside, &model.inputs, true);
         taylor.accelerations(true, &mut stage.0);
         if expanded.is_ok() && found > ROUNDINGS * defect_to(&stage.0, 0.0) {
             return Ok(true);
         }
         work.evaluations += 1;
         taylor
-            .expand(model.system.get(), now, &model.inputs, true)
+            .expand(model.in_series(), now, &model.inputs, true)
             .map_err(|singular| StepError::Singular { singular, t: now.t })?;
         Ok(false)
+    }
+}
+
+impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
+    /// The machine, with what its contacts do if one of them is closed.
+    pub(super) fn in_series(&self) -> (&S, Option<&[ContactMode]>) {
+        let touching = self.touching.as_ref();
+        let closed = touching.filter(|touching| !touching.leaves_accelerations());
+        (self.system.get(), closed.map(UnilateralState::modes))
     }
 }
 

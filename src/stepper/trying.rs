@@ -22,7 +22,7 @@ const ROUNDOFF_ACROSS: f64 = 1e-7;
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Prepares the attempts at a step.
     #[inline(always)]
-    pub(super) fn begin_tries(&mut self) -> Result<StepLimits, StepError> {
+    pub(super) fn begin_attempts(&mut self) -> Result<StepLimits, StepError> {
         if self.control.work.steps == 0 && self.control.step == 0.0 {
             self.control.step = self.first_step();
         }

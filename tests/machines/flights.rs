@@ -1,4 +1,4 @@
-//! Runs by Taylor series of machines with unilateral contacts: while all contacts are open a run goes by series, and otherwise by `dop853`. Impacts, their
+//! Runs by Taylor series of machines with unilateral contacts: while all contacts are open a run goes by series, and otherwise too where the motion has one. Impacts, their
 //! instants and the ends of runs are those of closed forms in double-doubles, and of runs by `dop853`.
 
 use crate::support::library;
@@ -91,15 +91,9 @@ fn a_bouncing_ball_rests_when_its_bounces_are_over() {
         let rests = run.contact_events().last().expect("it comes to rest");
         assert_eq!(rests.kind, ContactEventKind::Closes);
         assert!((rests.state.t - over).abs() <= rests.time_error + 1e-13);
-        assert_eq!(methods(&run), ["taylor", "dop853"]);
-        let [flies, lies] = run.choices() else {
-            panic!("{:?}", run.choices());
-        };
-        assert_eq!(
-            (flies.reason, lies.reason),
-            (MethodReason::Open, MethodReason::Closed)
-        );
-        assert!(flies.t == 0.0 && (lies.t - over).abs() <= 2.0 * rests.time_error + 1e-13);
+        assert_eq!(methods(&run), ["taylor"]);
+        assert_eq!(run.choices()[0].reason, MethodReason::Open);
+        assert!(run.choices()[0].t == 0.0);
         let residual = run
             .energy_balance()
             .map_or(f64::NAN, |balance| balance.residual());
@@ -229,7 +223,7 @@ fn impacts_are_those_of_runs_by_dop853() {
         assert!(explicit.choices().is_empty());
         for choice in by_series.choices() {
             let expected = match choice.reason {
-                MethodReason::Open => "taylor",
+                MethodReason::Open | MethodReason::ClosedInSeries => "taylor",
                 _ => "dop853",
             };
             assert_eq!(choice.method.tableau.name, expected, "{name}");
@@ -264,7 +258,9 @@ fn energies_balance_where_flights_follow_friction() {
     for (name, until) in [("dropped_box", 1.0), ("woodpecker", 1.0), ("dimer", 1.0)] {
         let machine = of_library(name);
         let run = run(&machine, &TAYLOR, (1e-10, until));
-        assert!(methods(&run).contains(&"taylor") && methods(&run).contains(&"dop853"));
+        assert!(methods(&run).contains(&"taylor"));
+        // Corners of polygons, and two ends on a plate that stick.
+        assert_eq!(methods(&run).contains(&"dop853"), name != "woodpecker");
         let balance = run.energy_balance().unwrap();
         assert!(
             balance.residual().abs() < 1e-8 * balance.exchanged,
@@ -454,12 +450,11 @@ fn a_run_that_chooses_goes_by_series_in_flights() {
     assert!(3 * long.statistics().evaluations < explicit.statistics().evaluations);
 }
 
-/// A machine whose contacts are closed for good costs what it costs by `dop853`.
+/// A machine whose contacts are closed for good, in a way that has no series, costs what it costs by `dop853`.
 #[test]
 fn what_never_flies_goes_by_dop853() {
-    let text = library::text("contacts/rolling_out");
-    let disc = machine(&text);
-    let [explicit, by_series] = [Method::DOP853, &TAYLOR].map(|of| run(&disc, of, (1e-9, 3.0)));
+    let ball = of_library("ball_in_turning_bowl");
+    let [explicit, by_series] = [Method::DOP853, &TAYLOR].map(|of| run(&ball, of, (1e-9, 1.0)));
     assert_eq!(methods(&by_series), ["dop853"]);
     assert_eq!(explicit.end(), by_series.end());
     assert_eq!(explicit.statistics().steps, by_series.statistics().steps);

@@ -739,6 +739,52 @@ fn a_stop_and_friction_that_share_a_load_let_go_together() {
     }
 }
 
+/// An oblique wall presses the cart down on its guide or floor. Where it lets go with the friction, as above, its gap opens with the third power of time, since nothing accelerates the
+/// cart yet. What rounding has left of its rate is of either sign, and does not close the wall again.
+#[test]
+fn an_oblique_wall_that_lets_go_with_friction_does_not_close_again() {
+    let (heavy, m, l, g, mu) = (
+        0.6915505090848807,
+        0.3172192503437447,
+        0.98,
+        9.81,
+        0.2530792088235413,
+    );
+    let settings = [
+        ("M", heavy),
+        ("m", m),
+        ("d", 0.34557457878175823),
+        ("mu", mu),
+    ];
+    for place in 0..12 {
+        let slope = -0.49931988441863107 + 0.02 * f64::from(place);
+        let wall =
+            format!("point: (0, 0), on: cart, along: ground.shift(-d, 0).turn(-pi/2 + {slope})");
+        let text = (PULLED_BY_ITS_PENDULUM.replace("-0.758", "1.3491237998920744"))
+            .replace("-2.44", "-2.848152943110237")
+            .replace("gap: x + d", &wall);
+        for text in on_rail_and_floor(&text) {
+            let machine = machine(&text, &settings);
+            for method in ["dop853", "dopri5", "radau9"] {
+                let run = run_by(&machine, method, 1e-12);
+                let all = instants(&run);
+                let lets_go = |told: &[String]| told.contains(&"back Lifts".to_owned());
+                let released: Vec<_> = all.iter().filter(|(_, told)| lets_go(told)).collect();
+                assert!(!released.is_empty(), "{method}, {slope}: {all:?}");
+                for (t, told) in released {
+                    assert_eq!(told[..], ["back Lifts", "rail Slips"], "{method}, {slope}");
+                    let state = run.at(*t).expect("in the run");
+                    let (sin, cos) = q(&state, "a").sin_cos();
+                    let pull = m * (g * cos + l * v(&state, "a").powi(2));
+                    // Forces of some 20 N are known to 1e-11 of themselves; and the instant is looked for a share of 1e-9 of a step later, which is no longer than 0.1 s, while
+                    // the pull grows by less than 50 N in a second.
+                    assert_near(pull * sin, mu * (heavy * g + pull * cos), 1e-8);
+                }
+            }
+        }
+    }
+}
+
 /// Random carts at stops, upright or oblique, with static friction or without, do the same whatever the method; and on a floor the same as on a guide, unless they jump.
 #[test]
 fn random_carts_at_stops_do_the_same_by_each_method() {

@@ -2,6 +2,7 @@
 //! results in higher precision.
 #![allow(clippy::too_many_lines, reason = "a test reads from top to bottom")]
 
+mod closed_series;
 mod collisions;
 mod crushers;
 mod emitted_series;

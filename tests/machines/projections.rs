@@ -27,9 +27,12 @@ fn both(file: &str) -> [InterpretedMachine; 2] {
         let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
         let (to, files) = (&mut sources, &mut Disk);
         let model = lagrangian_spec::model(&dag, &name, &text, &[], files, to, &mut report);
-        let compiled = model.and_then(|model| match for_runs {
-            true => Compiled::for_runs(model, &mut report),
-            false => Compiled::new(model, &mut report),
+        let compiled = model.and_then(|model| {
+            if for_runs {
+                Compiled::for_runs(model, &mut report)
+            } else {
+                Compiled::new(model, &mut report)
+            }
         });
         let compiled = compiled.unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
         let has_function = compiled.program.function(Role::Projection).is_some();

@@ -234,6 +234,63 @@ fn an_event_function_that_is_not_a_number_is_named() {
     );
 }
 
+/// Round-off as of large numbers: it is constant in the first part of the finest division of a step from 0 to 1, from which nothing follows for the others.
+fn round_off(t: f64) -> f64 {
+    if t < 1e-4 {
+        return 0.5;
+    }
+    let hash = t.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    (hash >> 62) as f64 - 1.5
+}
+
+#[test]
+fn an_event_function_that_is_round_off_is_named_after_a_budget_of_values() {
+    let ball = ball();
+    let values = AtomicUsize::new(0);
+    let error = Simulation::new(&ball)
+        .first_step(1.0)
+        .until(1.0)
+        .event("far", Crossing::Any, |state| {
+            values.fetch_add(1, Ordering::Relaxed);
+            round_off(state.t)
+        })
+        .run(ball.start())
+        .unwrap_err();
+    // As many as interpolants of degree 64 take in 2^14 parts, with two values in each that test slopes, and 65 for each length of parts.
+    const MOST: usize = (1 << 14) * 67 + 14 * 65;
+    assert!(
+        matches!(&error, Error::ZerosNotIsolated { watched, t: 0.0, values: MOST } if watched == "far"),
+        "{error}"
+    );
+    // Eight more decide whether to search, some are asked to know its sign at the start.
+    assert!(values.into_inner() < MOST + 100);
+}
+
+#[test]
+fn a_run_is_stopped_during_a_long_search_for_events() {
+    let ball = ball();
+    let values = AtomicUsize::new(0);
+    let run = Simulation::new(&ball)
+        .first_step(1.0)
+        .until(1.0)
+        .event("far", Crossing::Any, |state| {
+            values.fetch_add(1, Ordering::Relaxed);
+            round_off(state.t)
+        })
+        .stop_if(|_| values.load(Ordering::Relaxed) > 100_000)
+        .run(ball.start())
+        .unwrap();
+    assert_eq!(*run.ending(), Ending::Stopped);
+    assert!(run.events().is_empty());
+    // It ends where the step began, of which nothing is known.
+    let start = ball.start();
+    assert_eq!(
+        (run.end().t, run.end().q, run.end().v),
+        (start.t, start.q, start.v)
+    );
+    assert!(values.load(Ordering::Relaxed) < 100_000 + 4096 + 100);
+}
+
 #[test]
 fn a_condition_stops_a_run_after_a_step() {
     let ball = ball();

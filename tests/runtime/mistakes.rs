@@ -181,9 +181,9 @@ fn singular_equations_are_told_with_what_to_do() {
         ratio,
         t: 0.5,
     };
-    let dependent = Error::DependentConstraint {
+    let dependent = |ratio: f64| Error::DependentConstraint {
         constraint: "rod".into(),
-        ratio: 3e-17,
+        ratio,
         t: 0.5,
     };
     let fork = Error::Fork {
@@ -216,7 +216,18 @@ fn singular_equations_are_told_with_what_to_do() {
             ["`phi` has negative kinetic energy", "moments of inertia"],
         ),
         (
-            dependent,
+            singular(f64::INFINITY),
+            [
+                "no finite value in the row of the coordinate `phi`",
+                "overflow",
+            ],
+        ),
+        (
+            dependent(f64::INFINITY),
+            ["row of the constraint `rod`", "overflow"],
+        ),
+        (
+            dependent(3e-17),
             [
                 "`rod` becomes dependent on others",
                 "Leave out a constraint",
@@ -236,6 +247,21 @@ fn singular_equations_are_told_with_what_to_do() {
         for needed in needed {
             assert!(text.contains(needed), "{text}");
         }
+    }
+}
+
+/// A name that is kept is checked even if there are no constraints for whose sake it could be kept.
+#[test]
+fn a_kept_coordinate_that_does_not_exist_is_told_without_constraints() {
+    let machine = DoublePendulum::default();
+    let run = |name: &str| {
+        let simulation = Simulation::new(&machine).until(0.1).keep(name);
+        simulation.run(machine.start())
+    };
+    assert!(run("theta1").is_ok() && run("der(theta2)").is_ok());
+    for name in ["nope", "der(nope)"] {
+        let error = run(name).unwrap_err();
+        assert!(matches!(error, Error::UnknownCoordinate { .. }), "{error}");
     }
 }
 

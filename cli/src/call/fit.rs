@@ -8,6 +8,26 @@ use lagrangian_spec::token::normalized;
 
 use super::arguments::{Arguments, SetName, names_in, with_spec};
 use super::{Assignment, Keep, Spec, Start, assignment, count, observed, steps, tolerance};
+use crate::failure::Failure;
+
+/// The most searches for `--starts`.
+const MOST_SEARCHES: u64 = 10_000;
+
+/// The names in the lists of an option.
+///
+/// # Errors
+/// If one is not a name: the option, and what was expected.
+pub fn names_of_option(option: &str, lists: &[String]) -> Result<Vec<String>, Failure> {
+    names_of(lists).map_err(|why| Failure::Call(format!("{option}: {why}")))
+}
+
+/// Parses a number of searches.
+fn searches(text: &str) -> Result<u64, String> {
+    match count(text) {
+        Ok(count) if count <= MOST_SEARCHES => Ok(count),
+        _ => Err(format!("expected a whole number from 1 to {MOST_SEARCHES}")),
+    }
+}
 
 /// The names in a list of outputs; the comma in `der(x,2)` is inside brackets.
 pub fn names_of(lists: &[String]) -> Result<Vec<String>, String> {
@@ -67,7 +87,7 @@ pub struct Fit {
     pub bounds: Vec<Bounds>,
     /// The standard deviation of a measured column, as in `--sigma phi=0.5*deg`; or `--sigma auto`, which estimates those of all
     /// columns from their residuals.
-    #[arg(long = "sigma", value_name = "NAME=VALUE|auto", value_parser = sigma)]
+    #[arg(long = "sigma", value_name = "NAME=VALUE|auto", value_parser = sigma, allow_hyphen_values = true)]
     pub sigmas: Vec<SigmaOption>,
     /// The columns to fit to; by default all that are coordinates, rates or outputs.
     #[arg(long, value_name = "NAME,…")]
@@ -77,7 +97,7 @@ pub struct Fit {
     pub inputs: Vec<Assignment>,
     /// The number of searches: the first from the values of the spec and the call, the others from values between the bounds, or within
     /// a factor of 3; the best result is reported.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = count)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = searches, allow_hyphen_values = true)]
     pub starts: u64,
     /// Relative and absolute tolerance of each step.
     #[arg(long, default_value = "1e-9", value_parser = tolerance, allow_hyphen_values = true)]

@@ -30,7 +30,7 @@ pub struct Orbit {
     pub period: Option<String>,
     /// The approximate period, in s, for a machine that nothing drives; by default the time that the motion takes from the start until
     /// it comes closest to it again.
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_hyphen_values = true)]
     pub near: Option<f64>,
     /// How far a coordinate advances in a period, as in `--advance phi=2*pi`; by default it does not advance.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
@@ -41,7 +41,7 @@ pub struct Orbit {
     pub shift: Vec<String>,
     /// First let the motion run for this long, in s, so that it approaches an attracting orbit; with `--period`, for as many whole
     /// periods as this takes.
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_hyphen_values = true)]
     pub settle: Option<f64>,
     /// Relative and absolute tolerance of each step.
     #[arg(long, default_value = "1e-11", value_parser = tolerance, allow_hyphen_values = true)]

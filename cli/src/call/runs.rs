@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use lagrangian::Crossing;
 
 use super::arguments::{Arguments, SetName, names_in};
-use super::{Assignment, Runs, assignment, number, positive, tolerance};
+use super::{Assignment, Runs, assignment, count, number, positive, tolerance};
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
@@ -41,10 +41,10 @@ pub struct Compare {
     #[arg(long, value_enum, default_value_t = Interpolation::Cubic)]
     pub interpolation: Interpolation,
     /// Exit with status 1 if a quantity differs by more than this fraction of its range, as in `--within 1e-6`.
-    #[arg(long, value_name = "SHARE", value_parser = positive)]
+    #[arg(long, value_name = "SHARE", value_parser = positive, allow_hyphen_values = true)]
     pub within: Option<f64>,
     /// Differences that `--within` accepts whatever the range is, in the unit of the quantity.
-    #[arg(long, value_name = "NUMBER", value_parser = positive, requires = "within")]
+    #[arg(long, value_name = "NUMBER", value_parser = positive, requires = "within", allow_hyphen_values = true)]
     pub floor: Option<f64>,
     /// Write the differences to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
@@ -102,10 +102,10 @@ pub struct Spectrum {
     #[arg(long, value_enum, default_value_t = Windows::Hann)]
     pub window: Windows,
     /// The maximum number of lines to report.
-    #[arg(long, value_name = "N", default_value_t = 8)]
-    pub lines: usize,
+    #[arg(long, value_name = "N", default_value = "8", value_parser = count, allow_hyphen_values = true)]
+    pub lines: u64,
     /// Leave out lines below this fraction of the greatest one.
-    #[arg(long, value_name = "SHARE", default_value = "1e-3", value_parser = positive)]
+    #[arg(long, value_name = "SHARE", default_value = "1e-3", value_parser = positive, allow_hyphen_values = true)]
     pub least: f64,
     /// Write the amplitudes to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
@@ -139,7 +139,7 @@ pub struct Peaks {
     pub part: Part,
     /// Leave out ripples: maxima and minima from which the curve departs to one side by no more than this, in the unit of the quantity;
     /// by default an estimate of the error of one step.
-    #[arg(long, value_name = "NUMBER", value_parser = positive)]
+    #[arg(long, value_name = "NUMBER", value_parser = positive, allow_hyphen_values = true)]
     pub ripple: Option<f64>,
     /// Write all maxima and minima to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]

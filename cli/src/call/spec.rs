@@ -108,7 +108,7 @@ pub struct Runs {
     #[arg(long = "const", value_name = "NAME=VALUE", value_parser = constant)]
     pub constants: Vec<(String, Rational)>,
     /// Run a spec to this time, in s; if it is compared with a table, by default to the end of the table.
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_hyphen_values = true)]
     pub until: Option<f64>,
     /// Record a spec's motion at this interval, in s; without it, 1000 times. A spec that is compared with a table is recorded at its rows.
     #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]

@@ -36,13 +36,13 @@ pub struct Sweep {
     #[arg(long, value_name = "NAME=VALUES", allow_hyphen_values = true)]
     pub vary: Vec<String>,
     /// The number of sets of values to sample from the given ranges and distributions.
-    #[arg(long, value_name = "N", value_parser = count)]
+    #[arg(long, value_name = "N", value_parser = count, allow_hyphen_values = true)]
     pub samples: Option<u64>,
     /// How values are sampled; by default `sobol`.
     #[arg(long, value_enum)]
     pub design: Option<Design>,
     /// The seed of the sampling; 0, the default, gives the Sobol sequence itself.
-    #[arg(long)]
+    #[arg(long, value_parser = seed, allow_hyphen_values = true)]
     pub seed: Option<u64>,
     /// Take the values of these together, the first with the first and so on, instead of crossing them, as in `--together m,omega`.
     #[arg(long, value_name = "NAME,…")]
@@ -80,10 +80,10 @@ pub struct Sweep {
     #[arg(long)]
     pub fresh: bool,
     /// The number of threads; by default one for each core.
-    #[arg(long, value_name = "N", value_parser = count)]
+    #[arg(long, value_name = "N", value_parser = count, allow_hyphen_values = true)]
     pub threads: Option<u64>,
     /// Stop after this many runs, rounded up to whole chunks; the same command resumes the sweep.
-    #[arg(long, value_name = "RUNS", value_parser = count)]
+    #[arg(long, value_name = "RUNS", value_parser = count, allow_hyphen_values = true)]
     pub limit: Option<u64>,
     /// Write the plan without running it. `lagrangian sweep PLAN.json` then runs it.
     #[arg(long, value_name = "FILE.json", conflicts_with_all = ["out", "fresh", "threads", "limit", "strict"])]
@@ -161,4 +161,10 @@ pub enum Design {
     Latin,
     /// The Sobol sequence, which fills the range evenly.
     Sobol,
+}
+
+/// Parses a seed.
+fn seed(text: &str) -> Result<u64, String> {
+    let number = text.trim().parse();
+    number.map_err(|_| "expected a whole number from 0 to 2^64 - 1".into())
 }

@@ -53,6 +53,7 @@ const FIELDS: [&str; 6] = ["t", "q", "v", "states", "parameters", "inputs"];
 /// # Errors
 /// If the text is not a list of values.
 pub fn read(name: &str, text: &str) -> Result<Vec<Result<Point, String>>, String> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let reader = Reader { name, text };
     let list: Vec<&RawValue> = match serde_json::from_str(text) {
         Ok(list) => list,

@@ -304,7 +304,7 @@ pub fn measure(
     experiments: &mut [Experiment],
 ) -> Result<Vec<Class>, Failure> {
     let known = measurable(machine, compiled);
-    let requested = call::names_of(&call.columns).map_err(Failure::Call)?;
+    let requested = call::names_of_option("--columns", &call.columns)?;
     check_columns(&requested, &known)?;
     let wrong = |why: String| Failure::Call(format!("--data {why}"));
     let mut classes: Vec<Class> = Vec::new();
@@ -392,6 +392,32 @@ fn note_on_unused(label: &str, unused: &[&str], known: &[Class]) -> String {
     )
 }
 
+/// Why a table has no measurements, before a list of the quantities that can be measured.
+fn without_measurements(names: &[String], known: &[Class]) -> String {
+    const MOST_SHOWN: usize = 12;
+    let quoted = |names: &mut dyn Iterator<Item = &String>| {
+        let shown: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+        let more = if shown.len() > MOST_SHOWN {
+            ", …"
+        } else {
+            ""
+        };
+        format!("{}{more}", shown[..shown.len().min(MOST_SHOWN)].join(", "))
+    };
+    let is_known = |name: &&String| known.iter().any(|class| class.name == **name);
+    if names.is_empty() {
+        return "it has no column besides `t`; quantities of the machine are".into();
+    }
+    if names.iter().any(|name| is_known(&name)) {
+        let empty = quoted(&mut names.iter().filter(is_known));
+        return format!("there is no number in {empty}; quantities of the machine are");
+    }
+    format!(
+        "none of its columns, {}, is among the quantities of the machine",
+        quoted(&mut names.iter())
+    )
+}
+
 /// Checks that an experiment can be run over the times of its measurements.
 fn check_times(
     given: &Given,
@@ -414,8 +440,8 @@ fn check_times(
             .take(12)
             .collect();
         return Err(Failure::Call(format!(
-            "--data {label}: none of its columns {} contains measurements of a quantity of the machine: {}",
-            names.join(", "),
+            "--data {label}: {}: {}",
+            without_measurements(names, known),
             shown.join(", ")
         )));
     }

@@ -280,7 +280,7 @@ pub(super) fn observed(
     lists: &[String],
 ) -> Result<Vec<Observed>, Failure> {
     let known = Known::of(machine);
-    let wanted = call::names_of(lists).map_err(Failure::Call)?;
+    let wanted = call::names_of_option("--of", lists)?;
     if wanted.is_empty() {
         return Ok(known.observed_by_default());
     }

@@ -137,8 +137,12 @@ pub(super) fn print(
 
 /// Prints which methods a run chose, and why. If stiffness was never found, the choice is not mentioned.
 fn print_choices(run: &Run) {
-    let follows_contacts =
-        |reason: &MethodReason| matches!(reason, MethodReason::Open | MethodReason::Closed);
+    let follows_contacts = |reason: &MethodReason| {
+        matches!(
+            reason,
+            MethodReason::Open | MethodReason::Closed | MethodReason::ClosedInSeries
+        )
+    };
     let (with_contacts, others): (Vec<&MethodChoice>, Vec<_>) =
         (run.choices().iter()).partition(|choice| follows_contacts(&choice.reason));
     if others.len() > 1 {
@@ -156,7 +160,7 @@ fn print_choices(run: &Run) {
     }
 }
 
-/// Prints how long a run went by series while its contacts were open, and otherwise.
+/// Prints how long a run with contacts went by series, and otherwise.
 fn print_flights(run: &Run) {
     let choices = run.choices();
     let ends = (choices.iter().skip(1).map(|choice| choice.t)).chain([run.end().t]);
@@ -171,8 +175,12 @@ fn print_flights(run: &Run) {
             otherwise += end - choice.t;
         }
     }
+    if otherwise == 0.0 {
+        output::line(format_args!("  taylor with contacts open and closed"));
+        return;
+    }
     output::line(format_args!(
-        "  taylor while all contacts were open, {in_series:.6} s; dop853 while one was closed, {otherwise:.6} s"
+        "  taylor for {in_series:.6} s; dop853 for {otherwise:.6} s, while a contact was closed"
     ));
 }
 

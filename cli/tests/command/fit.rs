@@ -1096,12 +1096,12 @@ fn what_is_wrong_is_said() {
         (
             "none.csv",
             "t,y\n0,0.1\n1,0.2\n",
-            "none of its columns y contains measurements",
+            "none of its columns, `y`, is among the quantities of the machine: x",
         ),
         (
             "empty.csv",
             "t,x\n0,\n1,\n",
-            "none of its columns x contains measurements",
+            "there is no number in `x`; quantities of the machine are: x",
         ),
     ];
     for (name, text, why) in files {

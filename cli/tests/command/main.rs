@@ -29,6 +29,7 @@ mod jams;
 mod library;
 mod linearize;
 mod map;
+mod mistaken_calls;
 mod modes;
 mod orbit;
 mod parts;

@@ -624,3 +624,45 @@ fn the_start_of_a_state_is_varied_and_fitted_under_its_name() {
         assert_eq!(output.status.code(), Some(2), "{name}");
     }
 }
+
+/// A state is kept by its own name, whether or not there are constraints for whose sake the others are changed.
+#[test]
+fn a_state_is_kept_by_its_name() {
+    const COIL: &str = "machine Coil in plane {
+        parameters { R: ohm = 1, L: H = 0.1, K: N/A = 0.2 }
+        coordinates { x: m = 1, y: m = 0.2 }
+        states { i: A = 0.5, der(i) = -R*i/L }
+        bodies { bead { mass: 1, at: (x, y) } }
+        forces { coil { on: x, value: K*i } }
+        constraints { ring: norm(bead.at) = 1 }
+    }";
+    let at = |text: &str, keep: &str| {
+        let spec = Scratch::new("coil.machine", text);
+        let arguments = [
+            "simulate",
+            spec.path(),
+            "--until",
+            "0.1",
+            "--json",
+            "--keep",
+            keep,
+        ];
+        let output = lagrangian(&arguments);
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{error}");
+        let document: serde_json::Value =
+            serde_json::from_slice(&output.stdout).expect("a document");
+        document["states"]["i"].as_f64().expect("a number")
+    };
+    let expected = 0.5 * (-1.0_f64).exp();
+    for text in [
+        COIL.to_owned(),
+        COIL.replace("constraints { ring: norm(bead.at) = 1 }", ""),
+    ] {
+        for keep in ["i", "y,i", "none"] {
+            let current = at(&text, keep);
+            // A hundred steps, each within the tolerance of 1e-9.
+            assert!((current - expected).abs() < 1e-7, "{keep}: {current}");
+        }
+    }
+}

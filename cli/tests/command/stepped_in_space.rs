@@ -323,5 +323,11 @@ fn impulses_of_random_stacks_are_found_in_every_step() {
             told.contains("share their load") || told.contains("admitted no motion")
         });
         assert_eq!(told.count(), 0, "stack {stack}: {warnings:#?}");
+        // That only closed contacts gave impulses in some steps is told, and is no failure.
+        for told in warnings.iter().filter_map(Value::as_str) {
+            if told.contains("no impulses of all contacts were found") {
+                println!("stack {stack}: {told}");
+            }
+        }
     }
 }

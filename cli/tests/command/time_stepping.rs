@@ -419,3 +419,40 @@ fn a_last_step_that_is_a_little_longer_ends_the_run() {
         close(number(&run["t"]), until, 1e-12);
     }
 }
+
+/// A ceiling comes down on a block that lies on the floor: no rate of the block keeps both contacts from closing further, so that there are no impulses of both. In the step in which the
+/// ceiling reaches the block, behind its middle, only the floor gives one, and a warning says so; the block stays where it is.
+#[test]
+fn contacts_that_are_left_out_of_a_step_are_named() {
+    let spec = Scratch::new(
+        "pressed.machine",
+        "machine Pressed in plane {
+            coordinates { y: m }
+            bodies { block { mass: 2, at: (0, y) } }
+            gravity (0, -9.81);
+            contacts {
+                floor { gap: y, restitution: 0 },
+                ceiling { gap: 0.115*m - (1*m/s)*t - y, restitution: 0.5 },
+            }
+        }",
+    );
+    let said = |until: f64| {
+        let run = step(spec.path(), until, 0.03, &[]);
+        assert!(number(&run["q"]["y"]).abs() <= 1e-15, "{run:#}");
+        let warnings = run["warnings"].as_array().expect("warnings");
+        let said = warnings.iter().filter_map(Value::as_str);
+        let said = said.filter(|said| said.contains("no impulses of all contacts"));
+        said.map(str::to_owned).collect::<Vec<_>>()
+    };
+    // The ceiling is 5 mm below the block at the end of the fourth step, and 10 mm above it in its middle.
+    assert_eq!(said(0.09), [""; 0]);
+    let [said] = &said(0.12)[..] else {
+        panic!("one step is told");
+    };
+    assert!(
+        said.contains("t = 0.12 s")
+            && said.contains("and not `ceiling`")
+            && !said.contains("there were"),
+        "{said}"
+    );
+}

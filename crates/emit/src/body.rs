@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use lagrangian_symbolic::sorting::sort_by;
 use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::layout::{Writer, width};
@@ -335,7 +336,7 @@ impl<'a, L: Language> Body<'a, L> {
                 }
             }
         }
-        reads.sort();
+        sort_by(&mut reads, Ord::cmp);
         for (source, index) in reads {
             let (name, value) = self.language.variable(source);
             let name = self.language.identifier(&mut self.scope, &name);

@@ -180,7 +180,7 @@ impl<'a> Cutter<'a> {
             .filter(|&value| !is_leaf(function.op(value)) && self.last_use[value.index()] >= end)
             .filter(|value| !self.slots.contains_key(value))
             .collect();
-        kept.sort();
+        kept.sort_unstable();
         let results: Vec<Value> = kept.iter().map(|value| values[value]).collect();
         let own = function.steps.iter();
         let own = own.filter(|(value, _)| (start..end).contains(&value.index()));
@@ -196,7 +196,7 @@ impl<'a> Cutter<'a> {
             .copied()
             .filter(|value| last_use[value.index()] < end)
             .collect();
-        dead.sort();
+        dead.sort_unstable();
         for value in dead {
             self.free.extend(self.slots.remove(&value));
         }

@@ -39,7 +39,7 @@ pub(crate) mod refusal;
 pub(crate) mod shorter;
 mod sliding;
 mod symmetric;
-mod unilateral;
+pub(crate) mod unilateral;
 
 use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 

@@ -7,6 +7,7 @@
 //! first; `Ball`s if the machine has functions whose laws do not hold in the field, and if the field finds a
 //! difference, as for [programs](crate::Proved).
 
+mod closed;
 mod lower;
 mod residual;
 mod text;
@@ -14,14 +15,15 @@ mod text;
 use std::ops::Deref;
 use std::sync::Arc;
 
-use lagrangian_program::series::{Expander, NoSeries, Series};
+use lagrangian_program::series::{ContactState, Expander, NoSeries, Series};
 use lagrangian_scalar::{Ball, Jet, Residue};
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Function as Call, Node, reachable};
 
+pub use closed::{MOST_CLOSED, ProvedContactSeries};
 pub use text::SeriesText;
 
-use crate::equations::literal::{Lagrange, State};
+use crate::equations::literal::{Lagrange, SmoothContact, State};
 use crate::proof::number::{Number, ZeroTest};
 use crate::{POINTS, STATES};
 
@@ -78,21 +80,28 @@ impl Deref for ProvedSeries {
 fn is_proved(series: &Arc<Series>, model: &Model<'_>) -> bool {
     // A machine with constraints of velocities has no series.
     let machine = Lagrange::of(model, |_| true);
-    let nodes = reachable(model.dag, &machine.roots);
-    let is_smooth = nodes.iter().all(|&id| match model.dag.node(id) {
-        Node::Function(call, _) => matches!(call, Call::Sin | Call::Cos),
-        _ => true,
-    });
-    match compare::<Residue>(series, &machine, POINTS) {
-        Some(true) if is_smooth => true,
-        _ => compare::<Ball>(series, &machine, STATES) == Some(true),
+    match compare::<Residue>(series, &machine, &[], POINTS) {
+        Some(true) if is_smooth(&machine) => true,
+        _ => compare::<Ball>(series, &machine, &[], STATES) == Some(true),
     }
 }
 
-/// Whether the equations hold at `states` states; nothing if they do not have values at that many.
+/// Whether all functions in the equations of a machine obey their laws in a field.
+fn is_smooth(machine: &Lagrange<'_, '_>) -> bool {
+    let dag = machine.model.dag;
+    let nodes = reachable(dag, &machine.roots);
+    nodes.iter().all(|&id| match dag.node(id) {
+        Node::Function(call, _) => matches!(call, Call::Sin | Call::Cos),
+        _ => true,
+    })
+}
+
+/// Whether the equations hold at `states` states while the contacts do this, or all are open if nothing is said of them; nothing if they do not have values at
+/// that many.
 fn compare<R: Number>(
     series: &Arc<Series>,
     machine: &Lagrange<'_, '_>,
+    contacts: &[ContactState],
     states: usize,
 ) -> Option<bool> {
     let mut good = 0;
@@ -100,7 +109,7 @@ fn compare<R: Number>(
         let at = R::state(number, machine);
         let w = (0..at.q.len() as u64).map(|i| R::random(number + 7919, i));
         let w: Vec<R> = w.collect();
-        match holds(series, machine, &at, &w) {
+        match holds(series, machine, contacts, &at, &w) {
             Some(false) => return Some(false),
             Some(true) => good += 1,
             None => {}
@@ -116,14 +125,53 @@ fn compare<R: Number>(
 fn holds<R: Number>(
     series: &Arc<Series>,
     machine: &Lagrange<'_, '_>,
+    contacts: &[ContactState],
     at: &State<R>,
     w: &[R],
 ) -> Option<bool> {
     let mut expander = Expander::new(series.clone(), &at.parameters, ORDERS);
     let t = [at.t, R::ZERO];
     expander.expand(t, &at.q, &at.v, &at.u).ok()?;
+    let moving = motion(&expander, at);
+    let w: Vec<Jets<R>> = w.iter().map(|&x| Jet::constant(x)).collect();
+    let literal = machine.dynamics(&moving, &w)?;
+    let count = series.unknowns() - series.dimension();
+    let mut multipliers = (0..count).map(|k| {
+        let series = expander.multiplier(k);
+        Jet(std::array::from_fn(|order| series[order]))
+    });
+    let (mut held, mut vanishing) = (literal.applied, Vec::new());
+    for constraint in &literal.constraints {
+        held = held + multipliers.next()? * constraint.along;
+        vanishing.push(constraint.acceleration);
+    }
+    if contacts.iter().any(|state| *state != ContactState::Open) {
+        let literal = machine.smooth_contacts(&moving, &w);
+        let of_contacts = contacts.iter().zip(literal);
+        let forces = forces_of_contacts(of_contacts, &mut multipliers, &mut vanishing)?;
+        held = held + forces;
+    }
+    let mut pairs: Vec<(R, R, f64)> = Vec::new();
+    for rate in vanishing {
+        // Accelerations and velocity products cancel in the residual, so their size is its scale.
+        for (order, rate) in rate.0.into_iter().enumerate() {
+            let sizes = moving.a.iter().map(|a| a.0[order].size());
+            pairs.push((rate, R::ZERO, 1.0 + sizes.sum::<f64>()));
+        }
+    }
+    for (inertia, held) in std::iter::zip(literal.inertia.0, held.0) {
+        pairs.push((inertia, held, inertia.size() + held.size()));
+    }
+    are_equal(pairs)
+}
+
+/// Truncated power series of the motion in time.
+type Jets<R> = Jet<R, ORDERS>;
+
+/// The motion that was expanded.
+fn motion<R: Number>(expander: &Expander<R>, at: &State<R>) -> State<Jets<R>> {
     let number = |j: usize| R::from_ratio(j as i64, 1);
-    let jets = |derivative: usize| -> Vec<Jet<R, ORDERS>> {
+    let jets = |derivative: usize| -> Vec<Jets<R>> {
         let of = |i: usize| {
             let q = expander.coordinate(i);
             Jet(std::array::from_fn(|k| match derivative {
@@ -135,30 +183,57 @@ fn holds<R: Number>(
         (0..at.q.len()).map(of).collect()
     };
     let constants =
-        |list: &[R]| -> Vec<Jet<R, ORDERS>> { list.iter().map(|&x| Jet::constant(x)).collect() };
-    let moving = State {
+        |list: &[R]| -> Vec<Jets<R>> { list.iter().map(|&x| Jet::constant(x)).collect() };
+    State {
         t: Jet::variable(at.t),
         q: jets(0),
         v: jets(1),
         a: jets(2),
         u: constants(&at.u),
         parameters: constants(&at.parameters),
-    };
-    let literal = machine.dynamics(&moving, &constants(w))?;
-    let mut pairs: Vec<(R, R, f64)> = Vec::new();
-    let mut held = literal.applied;
-    for (k, constraint) in literal.constraints.iter().enumerate() {
-        let series = expander.multiplier(k);
-        held = held + Jet(std::array::from_fn(|order| series[order])) * constraint.along;
-        // Accelerations and velocity products cancel in the residual, so their size is its scale.
-        for (order, rate) in constraint.acceleration.0.into_iter().enumerate() {
-            let sizes = moving.a.iter().map(|a| a.0[order].size());
-            pairs.push((rate, R::ZERO, 1.0 + sizes.sum::<f64>()));
+    }
+}
+
+/// The generalized force of closed contacts along a direction, where these are the multipliers along their normals and, if they stick, their tangents. Accelerations that
+/// have to vanish are added to the others. Nothing if a closed contact is not smooth.
+fn forces_of_contacts<'s, R: Number>(
+    contacts: impl Iterator<Item = (&'s ContactState, Option<SmoothContact<Jets<R>>>)>,
+    multipliers: &mut impl Iterator<Item = Jets<R>>,
+    vanishing: &mut Vec<Jets<R>>,
+) -> Option<Jets<R>> {
+    let zero = Jets::<R>::constant(R::ZERO);
+    let (mut forces, mut normal) = (zero, zero);
+    for (state, contact) in contacts {
+        if *state == ContactState::Open {
+            continue;
         }
+        let SmoothContact {
+            contact,
+            is_carried,
+        } = contact?;
+        if !is_carried {
+            normal = multipliers.next()?;
+            forces = forces + normal * contact.gap.along;
+            vanishing.push(contact.gap.acceleration);
+        }
+        let tangential = match *state {
+            ContactState::Sticks => {
+                vanishing.push(contact.slip.acceleration);
+                multipliers.next()?
+            }
+            ContactState::Slips(sign) => {
+                let sign = Jet::constant(R::from_ratio(-i64::from(sign), 1));
+                sign * contact.coefficients[2] * normal
+            }
+            ContactState::Open => zero,
+        };
+        forces = forces + tangential * contact.slip.along;
     }
-    for (inertia, held) in std::iter::zip(literal.inertia.0, held.0) {
-        pairs.push((inertia, held, inertia.size() + held.size()));
-    }
+    Some(forces)
+}
+
+/// Whether the numbers of all pairs are equal, each in terms of a size; nothing if that is not known.
+fn are_equal<R: Number>(pairs: Vec<(R, R, f64)>) -> Option<bool> {
     for (found, expected, size) in pairs {
         let left = found - expected;
         if !left.is_finite() {

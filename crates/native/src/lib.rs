@@ -53,6 +53,7 @@ mod vector;
 ))]
 mod x86;
 
+#[cfg(feature = "text")]
 #[doc(hidden)]
 pub mod files;
 #[cfg(all(

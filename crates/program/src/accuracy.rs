@@ -8,6 +8,7 @@
 //! 2nd ed. 2002, section 1.5: forward error, backward error and condition).
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
+use lagrangian_symbolic::sorting::sort_by;
 
 use super::rounding::{SplitMix, State};
 use super::{Arguments, Interpreter, Program, Role};
@@ -236,7 +237,7 @@ impl<'p> AccuracyTest<'p> {
             .filter(|(_, shares, _)| !shares.is_empty());
         ratios
             .map(|(role, mut shares, worst)| {
-                shares.sort_by(f64::total_cmp);
+                sort_by(&mut shares, f64::total_cmp);
                 Accuracy {
                     role,
                     known: shares.len(),

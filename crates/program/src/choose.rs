@@ -13,6 +13,7 @@ use std::cmp::Ordering;
 use std::fmt;
 
 use super::{Cost, Counts, Program, Role, Rounding};
+use lagrangian_symbolic::sorting::sort_by;
 
 /// The largest acceptable ratio of the rounding of a candidate to that of the most accurate one.
 ///
@@ -123,7 +124,7 @@ fn ranked(candidates: &[Candidate]) -> Vec<usize> {
         (_, None) => false,
     };
     let mut ranked: Vec<usize> = (0..candidates.len()).collect();
-    ranked.sort_by(|&a, &b| {
+    sort_by(&mut ranked, |&a, &b| {
         let (a, b) = (&candidates[a], &candidates[b]);
         is_rough(a).cmp(&is_rough(b)).then(a.compare(b))
     });

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use lagrangian_symbolic::sorting::sort_by_key;
 use lagrangian_symbolic::{Function, Rational};
 
 use super::Source;
@@ -163,7 +164,7 @@ impl Writer<'_> {
             .copied()
             .filter(|(_, power)| *power > 0)
             .collect();
-        up.sort_by_key(|(id, _)| !is_number(*id));
+        sort_by_key(&mut up, |(id, _)| !is_number(*id));
         let down = factors.iter().filter(|(_, power)| *power < 0);
         if up.is_empty() {
             self.text.push('1');

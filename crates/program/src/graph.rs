@@ -13,6 +13,7 @@
 //! one where the sum is used.
 
 use lagrangian_scalar::Scalar;
+use lagrangian_symbolic::sorting::sort_by_key;
 use lagrangian_symbolic::{Function, Rational};
 use rustc_hash::FxHashMap;
 
@@ -305,7 +306,7 @@ impl Graph {
             .copied()
             .filter(|term| !term.is_zero())
             .collect();
-        by_core.sort_by_key(|term| term.core);
+        sort_by_key(&mut by_core, |term| term.core);
         // p₁·x + p₂·x = (p₁ + p₂)·x.
         let mut merged: Vec<Scaled> = Vec::with_capacity(by_core.len());
         for group in by_core.chunk_by(|a, b| a.core == b.core) {
@@ -366,7 +367,7 @@ impl Graph {
                 },
             ));
         }
-        multiples.sort_by_key(|(rest, _)| *rest);
+        sort_by_key(&mut multiples, |(rest, _)| *rest);
         multiples.dedup_by(|next, sum| {
             let total = if next.0 == sum.0 {
                 sum.1.checked_add(&next.1)

@@ -15,6 +15,7 @@ use std::collections::BinaryHeap;
 use rustc_hash::FxHashMap;
 
 use super::net::{Index, Item, Net, Signed, Stage};
+use lagrangian_symbolic::sorting::sort_by_key;
 
 /// The largest number of changes to the table of pairs in one pass. A pass that reaches it stops
 /// there: its code is correct, only longer than it could be. A change takes some 50 ns; a spatial
@@ -122,7 +123,7 @@ impl Bags {
                 }
                 (Item::Sum(terms), PairKind::Sums) => {
                     if terms.iter().filter(|term| is_shared(term.0)).count() < 2 {
-                        terms.sort_by_key(|term| is_shared(term.0));
+                        sort_by_key(terms, |term| is_shared(term.0));
                         continue;
                     }
                     let member = |&(item, negative): &Signed| Member {

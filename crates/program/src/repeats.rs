@@ -20,6 +20,7 @@ use std::ops::Range;
 use rustc_hash::FxHashMap;
 
 use super::{Contracted, Contractions, Function, Op, Value};
+use lagrangian_symbolic::sorting::sort_by_key;
 
 /// The smallest number of iterations of a repeat: fewer are shorter written out.
 const FEWEST: usize = 4;
@@ -496,7 +497,7 @@ impl<'a> Finder<'a> {
     fn repeats(&self) -> Vec<Repeat> {
         let mut candidates = self.candidates();
         // The largest saving first; in case of a tie the shortest body, then the first.
-        candidates.sort_by_key(|c| (-c.saving, c.period, c.start));
+        sort_by_key(&mut candidates, |c| (-c.saving, c.period, c.start));
         let mut chosen: Vec<Candidate> = Vec::new();
         for candidate in candidates {
             let end = candidate.start + candidate.period * candidate.count;
@@ -507,7 +508,7 @@ impl<'a> Finder<'a> {
                 chosen.push(candidate);
             }
         }
-        chosen.sort_by_key(|candidate| candidate.start);
+        sort_by_key(&mut chosen, |candidate| candidate.start);
         let mut repeats: Vec<Repeat> = chosen
             .iter()
             .filter_map(|c| self.repeat(c.start, c.period, c.count))

@@ -34,6 +34,7 @@
 use std::fmt;
 
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
+use lagrangian_symbolic::sorting::sort_by;
 
 use rustc_hash::FxHashMap;
 
@@ -160,7 +161,7 @@ impl States {
             return None;
         }
         let median = |mut errors: Vec<f64>| {
-            errors.sort_by(f64::total_cmp);
+            sort_by(&mut errors, f64::total_cmp);
             Rounding::of_units(errors[errors.len() / 2])
         };
         Some(errors.into_iter().map(median).collect())

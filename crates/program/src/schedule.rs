@@ -12,6 +12,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use lagrangian_symbolic::Rational;
+use lagrangian_symbolic::sorting::sort_by_key;
 use rustc_hash::FxHashMap;
 
 use super::formula::formula;
@@ -291,7 +292,7 @@ impl Builder<'_> {
                     }
                 }
                 let earlier_first = |mut list: Vec<Index>| {
-                    list.sort_by_key(|&index| (net.stages[index as usize], index));
+                    sort_by_key(&mut list, |&index| (net.stages[index as usize], index));
                     list.into_iter().map(value).collect::<Vec<Value>>()
                 };
                 let (up, down) = (earlier_first(factors), earlier_first(down.clone()));
@@ -308,7 +309,7 @@ impl Builder<'_> {
             }
             Item::Sum(terms) => {
                 let mut list: Vec<Signed> = terms.clone();
-                list.sort_by_key(|&(index, negative)| {
+                sort_by_key(&mut list, |&(index, negative)| {
                     (negative, net.stages[index as usize], index)
                 });
                 let terms = list.into_iter();
@@ -532,7 +533,7 @@ fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>, Vec<Option<Val
             stack.push((value, true));
             let mut list: Vec<Value> = op.operands().collect();
             list.reverse();
-            list.sort_by_key(|operand| registers[operand.index()]);
+            sort_by_key(&mut list, |operand| registers[operand.index()]);
             stack.extend(list.into_iter().map(|operand| (operand, false)));
             continue;
         }

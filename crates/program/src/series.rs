@@ -16,6 +16,7 @@
 //! Sources of the recurrences: R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Griewank and A. Walther, *Evaluating
 //! Derivatives*, 2nd ed., 2008, ch. 13.
 
+mod closed;
 mod composition;
 mod expand;
 mod gradients;
@@ -29,6 +30,7 @@ use lagrangian_symbolic::{Function as Call, Rational};
 
 use crate::{Cost, Program, Role};
 
+pub use closed::{ContactRows, ContactSeries, ContactState};
 pub use composition::{ChainStep, Composition, Source};
 pub use expand::Expander;
 pub use lagrangian_scalar::series::{MOST_IN_ONE_SUM, is_inverse};
@@ -138,6 +140,8 @@ pub struct Series {
     /// Whether a row of rates is differentiated. Then all of them are computed one order ahead of the accelerations, and like positions they are
     /// corrected once these are known.
     pub rates_are_ahead: bool,
+    /// Whether the matrix of the unknowns is symmetric: that of a machine with a contact that slips is not, and [`Expander`] alone computes such a series.
+    pub is_symmetric: bool,
 }
 
 impl Series {
@@ -345,6 +349,8 @@ pub enum NoSeries {
     Friction,
     /// Accelerations that do not occur linearly in the forces.
     NotLinear,
+    /// All contacts yield, or are those of polygons: the motion has no series while one is closed.
+    Contacts,
     /// More rows than allowed.
     TooLarge,
     /// The series was not proved to obey the equations of motion.
@@ -364,6 +370,7 @@ impl fmt::Display for NoSeries {
             NoSeries::Approximations => f.write_str("it has coordinates that are approximated"),
             NoSeries::Constraints => f.write_str("it has constraints of velocities"),
             NoSeries::Friction => f.write_str("it has contacts with friction"),
+            NoSeries::Contacts => f.write_str("its contacts yield, or have gaps with kinks"),
             NoSeries::NotLinear => f.write_str("its forces depend on accelerations"),
             NoSeries::TooLarge => write!(f, "its series has more than {MOST_ROWS} rows"),
             NoSeries::Unproved => {

@@ -11,6 +11,7 @@
 
 use std::collections::BTreeMap;
 
+use lagrangian_symbolic::sorting::sort_by_key;
 use lagrangian_symbolic::{Function as Call, Rational};
 use lagrangian_units::{Name, Stages};
 
@@ -105,7 +106,7 @@ impl Program {
                 },
             });
         }
-        parts.sort_by_key(|part| part.role);
+        sort_by_key(&mut parts, |part| part.role);
         let weights = self.coordinates.iter().map(|slot| Slot {
             name: with_prefix(&slot.name, "weight_"),
             docs: format!("The weight of the acceleration of `{}`.", slot.name),

@@ -10,6 +10,8 @@ pub mod ball;
 pub mod double_double;
 pub mod dual;
 mod exact;
+// Without a feature, unlike that of the runtime: the compiler depends on this crate, and cargo would compile both twice, for the macro without
+// the feature and for the command with it.
 #[doc(hidden)]
 pub mod files;
 #[doc(hidden)]

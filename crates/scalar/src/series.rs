@@ -150,7 +150,8 @@ pub fn factor<N: Scalar>(
     held: usize,
     matrix: &mut [N::Stored],
 ) -> Result<(), Vanished<N>> {
-    if N::PAIRS_AT_ONCE == 0 && size_of::<N::Stored>() == size_of::<f64>() {
+    // A constant, so that for other numbers builds without optimization contain none of these functions either.
+    if const { N::PAIRS_AT_ONCE == 0 && size_of::<N::Stored>() == size_of::<f64>() } {
         match n {
             9..=12 => return factor_in_registers::<N, 12>(n, held, matrix),
             13..=16 => return factor_in_registers::<N, 16>(n, held, matrix),
@@ -196,6 +197,72 @@ pub fn factor<N: Scalar>(
     }
     if n <= MOST_INVERTED {
         invert::<N>(n, m);
+    }
+    Ok(())
+}
+
+/// Computes the transpose of the inverse of a matrix that need not be symmetric and whose result [is an inverse](is_inverse), in place, for [`solve`]. Rows from `held` on are
+/// those of constraints and contacts, whose pivots are negative.
+///
+/// Gauss–Jordan elimination without exchange of rows: those before `held` are positive definite, and each contact that does not jam keeps its sign.
+///
+/// # Errors
+/// If a pivot vanishes, or has the other sign.
+///
+/// # Panics
+/// If the matrix has too many rows.
+#[inline(always)]
+pub fn invert_unsymmetric<N: Scalar>(
+    n: usize,
+    held: usize,
+    matrix: &mut [N::Stored],
+) -> Result<(), Vanished<N>> {
+    let m = &mut matrix[..n * n];
+    let tolerance = N::from_f64(n as f64 * f64::EPSILON);
+    // The sizes of the terms whose sums pivots are.
+    let mut scales = [N::ZERO; MOST_INVERTED];
+    for (i, scale) in scales.iter_mut().enumerate().take(n) {
+        *scale = N::load(m[i * n + i]).abs();
+    }
+    for k in 0..n {
+        let pivot = N::load(m[k * n + k]);
+        let (remaining, scale) = (if k >= held { -pivot } else { pivot }, scales[k]);
+        if !remaining.exceeds(scale * tolerance) {
+            return Err(Vanished {
+                row: k,
+                pivot: remaining,
+                scale,
+            });
+        }
+        let reciprocal = N::ONE / pivot;
+        for j in 0..n {
+            if j != k {
+                m[k * n + j] = (N::load(m[k * n + j]) * reciprocal).store();
+            }
+        }
+        m[k * n + k] = reciprocal.store();
+        for i in 0..n {
+            if i == k {
+                continue;
+            }
+            let factor = N::load(m[i * n + k]);
+            if k < held && i >= held {
+                scales[i] = scales[i] + (factor * N::load(m[k * n + i])).abs();
+            }
+            for j in 0..n {
+                if j != k {
+                    let row = N::load(m[k * n + j]);
+                    let entry = factor.neg_mul_add(row, N::load(m[i * n + j]));
+                    m[i * n + j] = entry.store();
+                }
+            }
+            m[i * n + k] = (-(factor * reciprocal)).store();
+        }
+    }
+    for i in 0..n {
+        for j in 0..i {
+            m.swap(i * n + j, j * n + i);
+        }
     }
     Ok(())
 }
@@ -258,7 +325,7 @@ fn factor_in_registers<N: Scalar, const P: usize>(
     let zero = N::ZERO.store();
     let matrix = &mut matrix[..n * n];
     let tolerance = N::from_f64(n as f64 * f64::EPSILON);
-    // What is left of the upper triangle, L row by row, and the reciprocals of D.
+    // The rows of the upper triangle after elimination, L row by row, and the reciprocals of D.
     let (mut left, mut lower, mut over) = ([[zero; P]; P], [[zero; P]; P], [zero; P]);
     let mut scales = [zero; P];
     for i in 0..n {

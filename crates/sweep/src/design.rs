@@ -94,6 +94,25 @@ impl Distribution {
         }
     }
 
+    /// Why there is no such distribution, if so.
+    pub fn fault(self) -> Option<&'static str> {
+        match self {
+            Distribution::Uniform(a, b) | Distribution::LogUniform(a, b) if a >= b => {
+                Some("the first end must be below the second one")
+            }
+            Distribution::LogUniform(a, b) if a * b <= 0.0 => {
+                Some("both ends must have the same sign, and neither may be 0")
+            }
+            Distribution::Normal(_, deviation) if deviation <= 0.0 => {
+                Some("a standard deviation must be greater than 0")
+            }
+            Distribution::Triangular(a, b, peak) if a >= b || !(a..=b).contains(&peak) => {
+                Some("the first end must be below the second one, and the peak between them")
+            }
+            _ => None,
+        }
+    }
+
     /// Whether its range is unbounded.
     fn is_unbounded(self) -> bool {
         matches!(self, Distribution::Normal(..))
@@ -113,10 +132,30 @@ impl Factor {
         }
     }
 
-    /// Why the sets of values do not belong to the names, if so: such sets would give values to the wrong names.
+    /// Why it is no design, if so: its values do not belong to its names, or there are none for them.
     pub fn fault(&self) -> Option<String> {
+        if self.names().is_empty() {
+            return Some("a factor of the design varies nothing".into());
+        }
         match self {
-            Factor::Grid { .. } | Factor::Sample { .. } => None,
+            Factor::Grid {
+                name,
+                from,
+                to,
+                log: true,
+                ..
+            } if from * to <= 0.0 => Some(format!(
+                "{name}: both ends of a geometric grid must have the same sign, and neither may be 0"
+            )),
+            Factor::Grid { .. } => None,
+            Factor::Sample { variables, .. } => {
+                let mut variables = variables.iter();
+                let fault = |(name, of): &(String, Distribution)| {
+                    let fault = of.fault()?;
+                    Some(format!("{name}: {fault}"))
+                };
+                variables.find_map(fault)
+            }
             Factor::List { names, rows } => {
                 let row = rows.iter().position(|row| row.len() != names.len())?;
                 let (found, expected) = (rows[row].len(), names.len());

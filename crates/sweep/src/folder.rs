@@ -32,6 +32,8 @@ pub enum FolderError {
     InUse(String),
     /// The folder holds the chunks of another plan; lists the differences.
     OtherPlan(Vec<String>),
+    /// The folder holds no sweep but other files; the name of one.
+    OtherFiles(PathBuf, String),
 }
 
 impl fmt::Display for FolderError {
@@ -42,6 +44,11 @@ impl fmt::Display for FolderError {
             FolderError::OtherPlan(differences) => {
                 write!(f, "{}; --fresh begins again", differences.join("; "))
             }
+            FolderError::OtherFiles(path, name) => write!(
+                f,
+                "the folder {} holds no sweep, but other files, such as `{name}`: name a new or an empty folder",
+                path.display()
+            ),
         }
     }
 }
@@ -108,10 +115,11 @@ impl Folder {
     /// Opens a folder, or creates it. Several processes may share it if each makes chunks of its own.
     ///
     /// # Errors
-    /// If it cannot be opened, or another process uses it.
+    /// If it cannot be opened, another process uses it, or it holds other files and no sweep.
     pub fn open(path: &Path, format: Format, is_shared: bool) -> Result<Folder, FolderError> {
         let at = |error| FolderError::File(path.to_owned(), error);
         fs::create_dir_all(path).map_err(at)?;
+        refuse_other_files(path)?;
         let name = path.join("lock");
         let lock = OpenOptions::new()
             .read(true)
@@ -144,7 +152,7 @@ impl Folder {
             _lock: lock,
         };
         if !is_shared {
-            folder.remove_files(|name| name.ends_with(".tmp"))?;
+            folder.remove_files(is_partial)?;
         }
         Ok(folder)
     }
@@ -491,6 +499,33 @@ fn is_chunk(name: &str) -> bool {
         stem.len() >= 8 && endings.contains(ending)
     });
     stem.is_some_and(|(stem, _)| stem.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
+/// Whether a file is one that a process that was killed has not completed.
+fn is_partial(name: &str) -> bool {
+    let name = name.strip_suffix(".tmp");
+    let name = name.and_then(|name| name.rsplit_once('.'));
+    name.is_some_and(|(name, process)| {
+        (name == "plan.json" || is_chunk(name)) && process.bytes().all(|byte| byte.is_ascii_digit())
+    })
+}
+
+/// Refuses a folder that is used for something else: it has no plan, and files that no sweep writes.
+fn refuse_other_files(path: &Path) -> Result<(), FolderError> {
+    let at = |error| FolderError::File(path.to_owned(), error);
+    if path.join("plan.json").is_file() {
+        return Ok(());
+    }
+    for entry in fs::read_dir(path).map_err(at)? {
+        let name = entry.map_err(at)?.file_name();
+        let name = name.to_string_lossy();
+        // File managers leave hidden files in folders that are empty for their users.
+        let is_hidden = name.starts_with('.');
+        if !is_hidden && name != "lock" && !is_chunk(&name) && !is_partial(&name) {
+            return Err(FolderError::OtherFiles(path.to_owned(), name.into_owned()));
+        }
+    }
+    Ok(())
 }
 
 /// Writes a file under a temporary name beside its destination, which it replaces when it is complete.

@@ -283,6 +283,7 @@ impl Plan {
     /// # Errors
     /// If the text is not a valid plan: what is wrong with it.
     pub fn from_json(text: &str) -> Result<Plan, String> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let value: serde_json::Value =
             serde_json::from_str(text).map_err(|error| error.to_string())?;
         let version = value.get("version").and_then(serde_json::Value::as_u64);

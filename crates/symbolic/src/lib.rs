@@ -27,6 +27,7 @@
 pub mod dag;
 pub mod normal;
 pub mod print;
+pub mod sorting;
 
 mod arena;
 mod calculus;

@@ -11,6 +11,7 @@
 //! first. A common motion of both frames stores and dissipates no energy.
 
 use lagrangian_symbolic::Expr;
+use lagrangian_symbolic::sorting::sort_by_key;
 
 use super::damper::DAMPING;
 use super::spring::STIFFNESS;
@@ -259,7 +260,7 @@ fn shifts_between<'d>(
     let (mut near, mut far) = ((from, true), (to, false));
     for _ in 0..FRAME_STEP_LIMIT {
         if near.0 == far.0 {
-            shifts.sort_by_key(|shift: &Shift<'d>| shift.angle.id());
+            sort_by_key(&mut shifts, |shift: &Shift<'d>| shift.angle.id());
             return Some(shifts);
         }
         // A frame is made after its parent, so the later of the two is not an ancestor of the other.

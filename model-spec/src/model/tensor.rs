@@ -1,5 +1,7 @@
 //! Tensors of inertia that no body has.
 
+use lagrangian_symbolic::sorting::sort_by;
+
 /// How far a tensor may violate the conditions on a body, relative to its largest entry: data have few digits.
 const SLACK: f64 = 1e-6;
 
@@ -50,7 +52,7 @@ fn principal_moments([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [f64; 3] {
         }
     }
     let mut moments = [matrix[0][0], matrix[1][1], matrix[2][2]];
-    moments.sort_by(f64::total_cmp);
+    sort_by(&mut moments, f64::total_cmp);
     moments
 }
 

@@ -9,7 +9,7 @@ use crate::model::bounds::BoundKind;
 use crate::model::polygons::{Corner, MOST_CORNERS, Polygon};
 use crate::model::{
     Circle, Compliance, Contact, ContactGeometry, FrameOrBody, ImpactLaw, ImpactOrder,
-    MOST_UNILATERAL, Name, Painleve, Response, Space, Surface, Touching,
+    MOST_UNILATERAL, Name, Painleve, Response, Space, Surface, Touching, stage,
 };
 use crate::syntax::{Expression, ExpressionKind, Record};
 use crate::unit::Unit;
@@ -468,7 +468,16 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<ContactGeometry<'d>> {
         let gap = self.field(member, record, "gap");
         let scope = self.scope(member, &limits::GAP);
+        let place = gap.map(|gap| gap.span);
         let gap = gap.and_then(|gap| self.scalar_in(gap, Unit::METRE, "a gap is in m", scope));
+        if let (Some(gap), Some(place)) = (&gap, place)
+            && gap.expr.stage() < stage::POSITION
+        {
+            let message = "this gap depends on no coordinate, so the contact cannot close by a motion or press";
+            let diagnostic = Diagnostic::new(Code::NoCoordinates, place, message);
+            self.push(diagnostic.help("give a distance that depends on coordinates"));
+            return None;
+        }
         // Without friction nothing depends on the slip.
         let (slip, across) = match (record.get("slip"), record.field("friction")) {
             (None, None) => (Some(self.dag.zero()), None),

@@ -3,6 +3,7 @@
 //! A pose is built on the expressions of its parent, never on their expansion: in a chain of links
 //! each origin is one term in the next, and each angle one term in the next angle.
 
+use lagrangian_symbolic::sorting::sort_by;
 use lagrangian_symbolic::{Expr, Id};
 
 use super::Resolver;
@@ -665,7 +666,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 points.push((group.base != root, format!("`{name}.{member}`")));
             }
         }
-        points.sort();
+        sort_by(&mut points, Ord::cmp);
         let more = points.len() > LISTED;
         points.truncate(LISTED);
         let mut list: Vec<String> = points.into_iter().map(|(_, point)| point).collect();

@@ -6,6 +6,7 @@ mod unknown;
 use std::collections::BTreeMap;
 
 use lagrangian_symbolic::Expr;
+use lagrangian_symbolic::sorting::sort_by_key;
 
 use super::Resolver;
 use super::text::show;
@@ -494,7 +495,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .flat_map(|group| group.members.values().copied())
             .filter(|&member| self.declaration(member).section == section)
             .collect();
-        members.sort_by_key(|&member| self.members[member].place);
+        sort_by_key(&mut members, |&member| self.members[member].place);
         members
     }
 

@@ -62,7 +62,7 @@ pub(super) struct ContactsOfStep<'a> {
     pub h: f64,
     /// The rates that there would be at its end if nothing touched.
     pub free: &'a [f64],
-    /// The courses of their gaps without impulses; of what leans on another contact, that one's.
+    /// The courses of their gaps without impulses; of what depends on another contact, that one's.
     pub courses: &'a [Course],
 }
 
@@ -84,6 +84,17 @@ pub(super) struct ImpulsesOfStep {
     /// The places of contacts that share their impulses in another way than by the rule, and of those whose friction permitted no rates with their restitution.
     pub shared_otherwise: Vec<usize>,
     pub jammed: Vec<usize>,
+    /// The places of contacts that touched and gave no impulse because none of all contacts together were found.
+    pub left_out: Vec<usize>,
+}
+
+/// How impulses obey the laws that the search for those of all contacts did not find.
+#[derive(Clone, Copy, Debug, Default)]
+struct FoundOtherwise {
+    /// Whether they are without restitution.
+    is_inelastic: bool,
+    /// Whether they are those of contacts alone that are closed in the middle of the step.
+    is_of_closed: bool,
 }
 
 /// Memory for the impulses of a step.
@@ -117,8 +128,8 @@ impl ContactsOfStep<'_> {
         if !in_one_problem && self.first_impact(&impulses.approaches).is_some() {
             return self.write_divided(impulses, memory);
         }
-        let is_jammed = if self.whole(impulses, |_| true, memory) {
-            false
+        let found = if self.whole(impulses, |_| true, memory) {
+            FoundOtherwise::default()
         } else {
             (self.whole_otherwise(impulses, memory)).ok_or_else(|| self.unsettled())?
         };
@@ -127,22 +138,31 @@ impl ContactsOfStep<'_> {
         impulses.last.clone_from(&answer.forces);
         (impulses.shared_otherwise).clone_from(&answer.shared_otherwise);
         impulses.jammed.clear();
-        if is_jammed {
+        if found.is_inelastic {
             impulses.jammed.extend(0..self.meeting.contacts.len());
+        }
+        impulses.left_out.clear();
+        if found.is_of_closed {
+            let is_left_out = |place: &usize| self.is_own(*place) && !self.is_closed(*place);
+            (impulses.left_out).extend((0..self.meeting.contacts.len()).filter(is_left_out));
         }
         self.write_effects_of_whole(impulses, &mut memory.rates);
         Ok(())
     }
 
-    /// Solves for the impulses of the whole step where the search for them has failed; whether they are without restitution, if there are any. The search begins at those without restitution. If that
+    /// Solves for the impulses of the whole step where the search for them has failed; how they were found, if they were. The search begins at those without restitution. If that
     /// fails too, only those contacts press that are closed in the middle of the step, as Moreau has it: feet of a body that stay beside what they touch do so at rates of their gaps, which others
     /// that are beyond theirs do not have, and so no motion of the body.
     fn whole_otherwise(
         &self,
         impulses: &mut ImpulsesOfStep,
         memory: &mut LawsMemory,
-    ) -> Option<bool> {
-        let is_closed = |place: usize| self.courses[place].is_closed();
+    ) -> Option<FoundOtherwise> {
+        let is_closed = |place: usize| self.is_closed(place);
+        let found = |is_inelastic: bool, is_of_closed: bool| FoundOtherwise {
+            is_inelastic,
+            is_of_closed,
+        };
         self.write_approaches(false, &mut impulses.approaches);
         if self.whole(impulses, |_| true, memory) {
             memory.start = Some(memory.answer.forces.clone());
@@ -150,13 +170,22 @@ impl ContactsOfStep<'_> {
         self.write_approaches(true, &mut impulses.approaches);
         let has_impulses = memory.start.is_some() && self.whole(impulses, |_| true, memory);
         memory.start = None;
-        if has_impulses || self.whole(impulses, is_closed, memory) {
-            return Some(false);
+        if has_impulses {
+            return Some(found(false, false));
+        }
+        if self.whole(impulses, is_closed, memory) {
+            return Some(found(false, true));
         }
         self.write_approaches(false, &mut impulses.approaches);
-        let has_impulses =
-            self.whole(impulses, |_| true, memory) || self.whole(impulses, is_closed, memory);
-        has_impulses.then_some(true)
+        if self.whole(impulses, |_| true, memory) {
+            return Some(found(true, false));
+        }
+        (self.whole(impulses, is_closed, memory)).then_some(found(true, true))
+    }
+
+    /// Whether a contact is closed in the middle of the step.
+    fn is_closed(&self, place: usize) -> bool {
+        self.courses[place].is_closed()
     }
 
     /// Writes how contacts meet, with their restitution or without.
@@ -255,7 +284,7 @@ impl ContactsOfStep<'_> {
             .is_none()
     }
 
-    /// The place of the contact whose normal impulse one leans on.
+    /// The place of the contact whose normal impulse one depends on.
     fn carrier(&self, place: usize) -> usize {
         place - usize::from(!self.is_own(place))
     }
@@ -360,6 +389,7 @@ impl ContactsOfStep<'_> {
         let first_part = self.first_impact(&impulses.approaches).unwrap_or(0.5);
         let parts = [first_part, 1.0 - first_part];
         impulses.jammed.clear();
+        impulses.left_out.clear();
         impulses.shared_otherwise.clear();
         let mut rests = core::mem::take(&mut impulses.rests);
         self.write_resting(&mut rests);
@@ -512,7 +542,7 @@ impl ContactsOfStep<'_> {
             let Some(place) = fastest else {
                 break;
             };
-            // The contacts that lean on it follow it, and are asked with it.
+            // The contacts that depend on it follow it, and are asked with it.
             let end = (place + 1..count).find(|next| self.is_own(*next));
             let own = 2 * place..2 * end.unwrap_or(count);
             let g: Vec<f64> = (own.clone())

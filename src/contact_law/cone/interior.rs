@@ -82,7 +82,7 @@ struct ScaledCone {
 }
 
 impl Interior {
-    /// Takes a problem, if its forces and rates are in dual cones: if each friction force leans on one unknown normal force.
+    /// Takes a problem, if its forces and rates are in dual cones: if each friction force is bounded by one unknown normal force.
     pub fn begin(&mut self, problem: &Problem) -> bool {
         let n = problem.n();
         self.cones.clear();

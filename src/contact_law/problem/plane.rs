@@ -155,7 +155,7 @@ impl<'a> PlaneProblem<'a> {
         }
     }
 
-    /// A contact and its tangent have one unit; what leans has a direction of its own.
+    /// A contact and its tangent have one unit; rolling resistance has a direction of its own.
     fn unit_of_contact(&self, k: usize) -> f64 {
         let own = match self.contacts[k] {
             ContactUnknowns::OnCarrier { .. } => {

@@ -1,4 +1,4 @@
-//! Slips in two directions that fade: what is left of them are the errors of steps.
+//! Slips in two directions that fade: their residuals are the errors of steps.
 
 use std::vec;
 use std::vec::Vec;
@@ -18,8 +18,8 @@ use crate::{StepError, System, Vector};
 const FADING: f64 = 10.0;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// A contact whose slip in two directions is next to nothing at the end of the last step, is braked there, and would stay at rest, if there is one. What
-    /// is left of such a slip are errors, which the following steps would turn around rest in ever shorter steps. `memory` knows the contacts there, and
+    /// A contact whose slip in two directions is next to nothing at the end of the last step, is braked there, and would stay at rest, if there is one. The
+    /// residual of such a slip consists of errors, which the following steps would turn around rest in ever shorter steps. `memory` knows the contacts there, and
     /// `faster` which of them have slipped faster.
     pub(crate) fn faded_slip(
         &mut self,
@@ -100,7 +100,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     }
 }
 
-/// For each coordinate the rate up to which it may be what the errors of steps have left of none.
+/// For each coordinate the rate up to which it may be a residual: what the errors of steps add to a rate of 0.
 fn fading_rate<V: Vector>(tolerance: &Tolerance<V>, v: &V) -> impl Fn(usize) -> f64 {
     let Tolerance { relative, absolute } = tolerance;
     move |i| FADING * (absolute.as_slice()[i] + relative * v.as_slice()[i].abs())

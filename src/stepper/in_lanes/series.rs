@@ -18,7 +18,7 @@ use crate::taylor::{Coefficients, motion};
 use crate::{System, Vector};
 use lagrangian_native::{Lanes, Number};
 
-/// The ends of the steps that are being tried, and the motions through them.
+/// The ends of the steps that are being attempted, and the motions through them.
 pub(super) struct Expansions {
     t: [Wide; 2],
     q: Vec<Wide>,
@@ -32,7 +32,7 @@ pub(super) struct Expansions {
     powers: Option<Powers>,
 }
 
-/// The powers along the steps that are being tried.
+/// The powers along the steps that are being attempted.
 struct Powers {
     method: &'static Method,
     /// The times at the beginnings of steps, in two parts, and their lengths.

@@ -167,9 +167,10 @@ impl Wedges {
             let one = |word: &str, gap: String| {
                 format!("{word}{i} {{ gap: {gap}, slip: {slip}, restitution: 0, friction: {mu} }}")
             };
-            match is_in_slot {
-                true => [one("c", above.clone()), one("d", format!("-({above})"))].join(", "),
-                false => one("c", above),
+            if is_in_slot {
+                [one("c", above.clone()), one("d", format!("-({above})"))].join(", ")
+            } else {
+                one("c", above)
             }
         });
         machine(&format!(

@@ -478,6 +478,62 @@ fn an_interrupted_run_is_written_as_far_as_it_came() {
     );
 }
 
+/// Ctrl-C during the estimate of the error ends the estimate; the run is written as a whole.
+#[test]
+fn an_interrupted_estimate_leaves_the_run() {
+    if !Path::new("/proc/self/status").exists() {
+        return;
+    }
+    let folder = Folder::new();
+    // It soon rests, and then an implicit method takes few steps; a run in double-double would take hours.
+    folder.file(
+        "damped.machine",
+        "machine Damped in plane {
+            parameters { l: m = 0.5, c: N*m*s = 0.01, g: m/s^2 = 9.81 }
+            coordinates { theta: rad = 0.9 }
+            bodies { bob { mass: 1, at: l*(sin(theta), -cos(theta)) } }
+            gravity (0, -g);
+            dissipations { hinge: c*der(theta)^2/2 }
+        }",
+    );
+    let call = [
+        "simulate",
+        "damped.machine",
+        "--until",
+        "1e7",
+        "--every",
+        "1e4",
+        "--global-error",
+        "--out",
+        "a.csv",
+    ];
+    let mut command = folder.command(&call);
+    let pipes = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = pipes.spawn().expect("the command runs");
+    // Progress is told after two seconds.
+    let mut stderr = child.stderr.take().expect("a pipe");
+    let mut told = Vec::new();
+    while !String::from_utf8_lossy(&told).contains("estimating the error") {
+        let mut byte = [0];
+        assert_eq!(stderr.read(&mut byte).expect("text"), 1, "it has ended");
+        told.push(byte[0]);
+    }
+    interrupt(&child);
+    child.stderr = Some(stderr);
+    let output = wait(child);
+    assert_eq!(status(&output), 130, "{}", err(&output));
+    assert!(
+        err(&output).contains("the estimate was interrupted"),
+        "{}",
+        err(&output)
+    );
+    assert!(out(&output).contains("at the end"), "{}", out(&output));
+    assert!(!out(&output).contains("interrupted"), "{}", out(&output));
+    let table = folder.read("a.csv");
+    let last = table.lines().last().and_then(|line| line.split(',').next());
+    assert_eq!(last, Some("10000000.0"));
+}
+
 /// Two interruptions: the second ends the command before the step is done, or after everything is written, always
 /// with the same status.
 #[test]

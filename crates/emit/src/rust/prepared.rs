@@ -10,6 +10,7 @@ use crate::formula_names;
 use crate::layout::Layout;
 use crate::names::{Field, Scope};
 use lagrangian_program::{Function, Op, Program, Role, Source};
+use lagrangian_symbolic::sorting::{sort_by, sort_by_key};
 
 /// The arrays of prepared values that the loops of a program count through.
 ///
@@ -34,7 +35,7 @@ pub(super) fn families(
         }
     }
     // The longest first; lists of equal length in the order of their occurrence.
-    lists.sort_by_key(|list| std::cmp::Reverse(list.len()));
+    sort_by_key(&mut lists, |list| std::cmp::Reverse(list.len()));
     let mut families: Vec<Vec<usize>> = Vec::new();
     for list in lists {
         let mut all = families.iter_mut();
@@ -43,7 +44,7 @@ pub(super) fn families(
             None => families.push(list),
         }
     }
-    families.sort();
+    sort_by(&mut families, Ord::cmp);
     let mut number = 0;
     let mut name = |slots: &Vec<usize>| {
         let base = |slot: &usize| match program.prepare.op(program.prepare.results[*slot]) {

@@ -35,6 +35,7 @@ mod numbers;
 mod parts;
 
 use lagrangian_scalar::{Dual, Residue};
+use lagrangian_symbolic::sorting::sort_by_key;
 use lagrangian_symbolic::{Expr, Symbol, evaluate};
 
 use super::guide;
@@ -677,7 +678,7 @@ impl PartVelocities {
         if affordable && is_right(&unconnected) {
             // Parts that the guide carries are named last.
             let mut order: Vec<usize> = (0..self.parts.len()).collect();
-            order.sort_by_key(|&k| !self.moves(&self.parts[k], &own));
+            sort_by_key(&mut order, |&k| !self.moves(&self.parts[k], &own));
             for k in order {
                 let before = std::mem::replace(&mut unconnected[k], false);
                 if before && !is_right(&unconnected) {

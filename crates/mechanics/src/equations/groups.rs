@@ -5,6 +5,7 @@
 //! are for reading only; programs are made from `M`, `h` and `f` themselves.
 
 use lagrangian_symbolic::normal::{self, READABLE_BUDGET};
+use lagrangian_symbolic::sorting::sort_by_key;
 use lagrangian_symbolic::{Expr, Node, Symbol};
 
 use super::approximation::Approximations;
@@ -246,7 +247,7 @@ pub fn equation<'d>(
             },
         );
     }
-    groups.sort_by_key(|group| group.kind);
+    sort_by_key(&mut groups, |group| group.kind);
     groups
 }
 

@@ -123,6 +123,13 @@ pub(crate) struct LiteralUnilateral<R> {
     pub coefficients: [R; 4],
 }
 
+/// A contact at a state whose gap is smooth.
+pub(crate) struct SmoothContact<R> {
+    pub contact: LiteralUnilateral<R>,
+    /// Whether it is the rolling resistance or the second tangent of the one before it.
+    pub is_carried: bool,
+}
+
 /// A bilateral constraint at a state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LiteralConstraint<R> {

@@ -70,7 +70,7 @@ pub struct DirectionEquation<'d> {
 }
 
 /// The unilateral contacts of a machine, in their order; `None` if they are too large to be derived, with the first one that is in the report.
-pub(super) fn unilateral<'d>(
+pub(crate) fn unilateral<'d>(
     model: &Model<'d>,
     report: &mut Report,
 ) -> Option<Vec<UnilateralEquation<'d>>> {

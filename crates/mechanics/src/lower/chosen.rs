@@ -11,6 +11,7 @@ use lagrangian_program::graph::Graph;
 use lagrangian_program::rounding::States;
 use lagrangian_program::{Role, rounding};
 use lagrangian_spec::model::{Model, Stages, Variable};
+use lagrangian_symbolic::sorting::sort_by_key;
 
 /// The functions of a program, each in the form that was chosen.
 pub(super) struct ChosenFunctions<'c> {
@@ -93,8 +94,8 @@ impl<'c> ChosenFunctions<'c> {
 
     /// The functions and the choices in the order of roles.
     pub fn in_order(mut self) -> (Vec<Draft>, Vec<Choice>) {
-        self.drafts.sort_by_key(|draft| draft.function.role);
-        self.choices.sort_by_key(Choice::role);
+        sort_by_key(&mut self.drafts, |draft| draft.function.role);
+        sort_by_key(&mut self.choices, Choice::role);
         (self.drafts, self.choices)
     }
 }

@@ -8,6 +8,7 @@ use lagrangian_program::rounding::States;
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution};
 use lagrangian_program::{Basis, Form, Function, Role, Shape, stages};
 use lagrangian_spec::model::Stages;
+use lagrangian_symbolic::sorting::sort_by_key;
 
 /// The functions of one form of the accelerations, in their order.
 struct Staged {
@@ -47,7 +48,7 @@ pub(super) fn staged<'d>(
         }
     }
     // Among those with equal repeated cost, the one with the lowest total cost.
-    ways.sort_by_key(Staged::throughput);
+    sort_by_key(&mut ways, Staged::throughput);
     let mut different: Vec<Staged> = Vec::with_capacity(ways.len());
     for way in ways {
         let is_same = |other: &Staged| {

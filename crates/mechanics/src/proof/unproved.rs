@@ -3,10 +3,12 @@
 use std::fmt;
 
 use super::Disagreement;
+use crate::equations::literal::Lagrange;
 use lagrangian_program::quantity::{Entry, ItemKind};
 use lagrangian_program::{Program, Role};
 use lagrangian_spec::diagnostic::{Code, Diagnostic};
 use lagrangian_spec::model::Model;
+use lagrangian_symbolic::{Node, reachable};
 
 /// Why a program is not emitted.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,16 +49,49 @@ impl Unproved {
                 format!("this machine could not be proved: {comparisons} states were compared, and too few of them have accelerations"),
             )
             .help("the size of its equations limits the number of states that are compared; if it is singular at most states, state what holds it, or make it smaller"),
-            _ if self.witness == Witness::FieldAlone => {
-                Diagnostic::new(Code::Internal, model.span, self.to_string()).help(
-                    "the prime field knows angles of at most 20 decimals, and round-off is small where the parameters of the machine are not many orders of magnitude apart: shorten such angles or write them as fractions of `pi`, or scale the parameters; if neither is the reason, please report the spec",
-                )
-            }
+            _ if self.witness == Witness::FieldAlone => self.undecided(model),
             _ => Diagnostic::new(Code::Internal, model.span, self.to_string()).help(
                 "this is a defect of lagrangian, not of the spec: nothing was emitted; please report it together with the spec",
             ),
         }
     }
+
+    /// The message where the prime field says something that round-off in double-doubles does not confirm.
+    fn undecided(&self, model: &Model<'_>) -> Diagnostic {
+        match distant_numbers(model) {
+            Some([least, greatest]) => Diagnostic::new(
+                Code::TooLarge,
+                model.span,
+                format!("{self}: its equations contain numbers from {least:e} to {greatest:e}"),
+            )
+            .help(
+                "numbers so many orders of magnitude apart cancel each other's digits: give positions relative to a point near the machine, and leave out what has no effect beside the rest; angles of more than 20 decimals are another reason, which fractions of `pi` avoid",
+            ),
+            None => Diagnostic::new(Code::Internal, model.span, self.to_string()).help(
+                "the prime field knows angles of at most 20 decimals, and round-off is small where the parameters of the machine are not many orders of magnitude apart: shorten such angles or write them as fractions of `pi`, or scale the parameters; if neither is the reason, please report the spec",
+            ),
+        }
+    }
+}
+
+/// The least and the greatest size of the numbers in the equations of a machine, and of the defaults of its parameters, other than 0, where they are further apart than numbers with
+/// 53 bits can be in one sum.
+fn distant_numbers(model: &Model<'_>) -> Option<[f64; 2]> {
+    let machine = Lagrange::of(model, |_| true);
+    let nodes = reachable(model.dag, &machine.roots);
+    let in_equations = nodes.iter().filter_map(|id| match model.dag.node(*id) {
+        Node::Constant(value) => Some(value.to_f64()),
+        _ => None,
+    });
+    let defaults = model.parameters.iter().filter_map(|p| p.default);
+    let defaults = defaults.filter_map(|value| Some(value.as_constant()?.to_f64()));
+    let sizes = in_equations.chain(defaults).map(f64::abs);
+    let [least, greatest] = sizes
+        .filter(|size| *size > 0.0)
+        .fold([f64::INFINITY, 0.0_f64], |[least, greatest], size| {
+            [least.min(size), greatest.max(size)]
+        });
+    (greatest * f64::EPSILON > least).then_some([least, greatest])
 }
 
 impl fmt::Display for Unproved {

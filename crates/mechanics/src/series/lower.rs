@@ -1,12 +1,15 @@
 //! Lowers the expressions of the residuals to the rows of a series.
 
-use lagrangian_program::series::{Level, MOST_ROWS, NoSeries, Row, RowId, Series};
+use lagrangian_program::series::{
+    ContactRows, ContactSeries, ContactState, Level, MOST_ROWS, NoSeries, Row, RowId, Series,
+};
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::normal::readable;
+use lagrangian_symbolic::sorting::{sort_by, sort_by_key};
 use lagrangian_symbolic::{Dag, Expr, Function as Call, Id, Node, Rational, Symbol, reachable};
 use rustc_hash::FxHashMap;
 
-use super::residual::{Derivative, Form, residual, split};
+use super::residual::{Closed, ClosedContact, Derivative, Form, residual, split};
 use crate::equations::kinetic_energies;
 use crate::equations::shorter::is_as_accurate;
 
@@ -20,25 +23,51 @@ const MOST_TERMS: usize = 200;
 /// The series of a machine's motion in different forms, not yet proved, the one with the fastest steps first.
 pub(super) fn series<'d>(model: &Model<'d>) -> Result<Vec<Series>, NoSeries> {
     let mut found = vec![in_form(model, Form::Positions)?];
-    if model.coordinates.len() <= MOST_WITH_CHOICE {
-        let [in_frames, without_spin] = kinetic_energies(model);
-        let mut energies = vec![in_frames, without_spin];
-        let multiplied_out = readable(in_frames, MOST_TERMS);
-        if is_as_accurate(model, [in_frames, multiplied_out], None) {
-            energies.push(multiplied_out);
-        }
-        energies.dedup();
-        let momenta = energies.into_iter().map(Form::Momenta);
-        found.extend(momenta.filter_map(|form| in_form(model, form).ok()));
-    }
+    let momenta = momenta(model).into_iter();
+    found.extend(momenta.filter_map(|form| in_form(model, form).ok()));
     // Stable: positions come first unless another form is faster.
-    found.sort_by(|one, other| one.cycles().total_cmp(&other.cycles()));
+    sort_by(&mut found, |one, other| {
+        one.cycles().total_cmp(&other.cycles())
+    });
     Ok(found)
+}
+
+/// The series of a machine's motion with these contacts in different forms, not yet proved, the one first that has the fastest steps if this is what they do.
+pub(super) fn contact_series<'d>(
+    model: &Model<'d>,
+    contacts: &[Option<ClosedContact<'d>>],
+    states: &[ContactState],
+) -> Vec<ContactSeries> {
+    let forms = [Form::Positions].into_iter().chain(momenta(model));
+    let mut found = Vec::new();
+    for form in forms {
+        if let Ok(series) = with_contacts(model, form, contacts) {
+            let cycles = series.with(states).map_or(f64::INFINITY, |of| of.cycles());
+            found.push((cycles, series));
+        }
+    }
+    found.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    found.into_iter().map(|(_, series)| series).collect()
+}
+
+/// The forms of the equations by momenta that are considered.
+fn momenta<'d>(model: &Model<'d>) -> Vec<Form<'d>> {
+    if model.coordinates.len() > MOST_WITH_CHOICE {
+        return Vec::new();
+    }
+    let [in_frames, without_spin] = kinetic_energies(model);
+    let mut energies = vec![in_frames, without_spin];
+    let multiplied_out = readable(in_frames, MOST_TERMS);
+    if is_as_accurate(model, [in_frames, multiplied_out], None) {
+        energies.push(multiplied_out);
+    }
+    energies.dedup();
+    energies.into_iter().map(Form::Momenta).collect()
 }
 
 /// The series in one form of the equations.
 fn in_form<'d>(model: &Model<'d>, form: Form<'d>) -> Result<Series, NoSeries> {
-    let residual = residual(model, form)?;
+    let residual = residual(model, form, &[])?;
     let mut lowering = Lowering::of(model, &residual.derivatives);
     for (k, multiplier) in (model.coordinates.len() as u32..).zip(&residual.multipliers) {
         lowering.sources.insert(*multiplier, Row::Acceleration(k));
@@ -58,8 +87,60 @@ fn in_form<'d>(model: &Model<'d>, form: Form<'d>) -> Result<Series, NoSeries> {
         parameters: model.parameters.len(),
         inputs: model.inputs.len(),
         rates_are_ahead: false,
+        is_symmetric: true,
     };
     series.pruned().ordered_by_time().with_dependences()
+}
+
+/// The series with contacts in one form of the equations.
+fn with_contacts<'d>(
+    model: &Model<'d>,
+    form: Form<'d>,
+    contacts: &[Option<ClosedContact<'d>>],
+) -> Result<ContactSeries, NoSeries> {
+    let closed: Vec<Closed<'d>> = contacts.iter().flatten().map(|of| of.closed).collect();
+    let residual = residual(model, form, &closed)?;
+    let mut lowering = Lowering::of(model, &residual.derivatives);
+    let mut indices = FxHashMap::default();
+    for (k, multiplier) in (model.coordinates.len() as u32..).zip(&residual.multipliers) {
+        lowering.sources.insert(*multiplier, Row::Acceleration(k));
+        indices.insert(*multiplier, k);
+    }
+    let index = |force: Expr<'d>| force.as_symbol().and_then(|key| indices.get(&key).copied());
+    let mut rows_of_contacts = Vec::with_capacity(contacts.len());
+    for contact in contacts {
+        let Some(contact) = contact else {
+            rows_of_contacts.push(None);
+            continue;
+        };
+        let normal = index(contact.force).ok_or(NoSeries::NotLinear)?;
+        let tangent = match contact.closed.tangent {
+            Some([_, force]) => {
+                // Before the row of the force, which is this one or its opposite where the contact slips.
+                let friction = lowering.expression(contact.friction * contact.force)?;
+                Some((index(force).ok_or(NoSeries::NotLinear)?, friction))
+            }
+            None => None,
+        };
+        rows_of_contacts.push(Some(ContactRows {
+            normal,
+            is_carried: contact.closed.normal.is_none(),
+            tangent,
+        }));
+    }
+    let mut residuals = Vec::new();
+    for &row in &residual.rows {
+        residuals.push(lowering.expression(row)?);
+    }
+    Ok(ContactSeries {
+        rows: lowering.rows,
+        residuals,
+        contacts: rows_of_contacts,
+        coordinates: model.coordinates.len(),
+        constraints: model.constraints().len(),
+        parameters: model.parameters.len(),
+        inputs: model.inputs.len(),
+    })
 }
 
 /// Converts expressions to rows.
@@ -258,7 +339,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
     }
 
     fn multiplied(&mut self, mut rows: Vec<RowId>) -> Result<Option<RowId>, NoSeries> {
-        rows.sort_by_key(|row| (self.levels[row.index()], *row));
+        sort_by_key(&mut rows, |row| (self.levels[row.index()], *row));
         let mut rows = rows.into_iter();
         let Some(mut product) = rows.next() else {
             return Ok(None);
@@ -385,22 +466,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         if self.rows.len() == MOST_ROWS {
             return Err(NoSeries::TooLarge);
         }
-        let mut level = match row {
-            Row::Time | Row::Coordinate(_) | Row::Input(_) => Level::Position,
-            Row::Rate(_) | Row::First(_) => Level::Rate,
-            Row::Acceleration(_) | Row::Second(_) => Level::Acceleration,
-            _ => Level::Constant,
-        };
-        row.for_each_operand(|operand| {
-            if let Some(&of) = self.levels.get(operand.index()) {
-                level = level.max(of);
-            }
-        });
-        if let Row::First(of) = row
-            && self.levels[of.index()] == Level::Rate
-        {
-            level = Level::Acceleration;
-        }
+        let level = row.level(&self.levels);
         let id = RowId(self.rows.len() as u32);
         self.known.insert(row.clone(), id);
         self.rows.push(row);

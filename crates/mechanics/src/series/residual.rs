@@ -48,8 +48,31 @@ pub(super) struct Derivative<'d> {
     pub is_second: bool,
 }
 
-/// The residuals of a machine's equations of motion.
-pub(super) fn residual<'d>(model: &Model<'d>, form: Form<'d>) -> Result<Residual<'d>, NoSeries> {
+/// A closed contact, with the symbols of its forces.
+#[derive(Clone, Copy)]
+pub(super) struct Closed<'d> {
+    /// The gap, with the force along the normal; `None` for a contact that has those of another one.
+    pub normal: Option<[Expr<'d>; 2]>,
+    /// With friction the slip, with the force along the tangent.
+    pub tangent: Option<[Expr<'d>; 2]>,
+}
+
+/// A closed contact with what is known of its forces.
+#[derive(Clone, Copy)]
+pub(super) struct ClosedContact<'d> {
+    pub closed: Closed<'d>,
+    /// Its force along the normal, or that of the contact that carries it.
+    pub force: Expr<'d>,
+    /// μ.
+    pub friction: Expr<'d>,
+}
+
+/// The residuals of a machine's equations of motion, with these contacts closed: their forces are further multipliers.
+pub(super) fn residual<'d>(
+    model: &Model<'d>,
+    form: Form<'d>,
+    closed: &[Closed<'d>],
+) -> Result<Residual<'d>, NoSeries> {
     if !model.approximations.is_empty() {
         return Err(NoSeries::Approximations);
     }
@@ -96,6 +119,19 @@ pub(super) fn residual<'d>(model: &Model<'d>, form: Form<'d>) -> Result<Residual
             .on_positions
             .push((constraint.expression, -multiplier));
         held.push(-rates.second(constraint.expression));
+    }
+    // Forces along the slip do work on it, and −dγ/dt = 0 if it is held.
+    for contact in closed {
+        if let Some([gap, force]) = contact.normal {
+            multipliers.extend(force.as_symbol());
+            loads.on_positions.push((gap, -force));
+            held.push(-rates.second(gap));
+        }
+        if let Some([slip, force]) = contact.tangent {
+            multipliers.extend(force.as_symbol());
+            loads.on_rates.push((slip, -force));
+            held.push(-rates.first(slip));
+        }
     }
     Ok(Residual {
         rows: loads.by_coordinate(model).into_iter().chain(held).collect(),

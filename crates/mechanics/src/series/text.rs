@@ -8,7 +8,7 @@ use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{ReadTexts, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
-use super::ProvedSeries;
+use super::{ProvedContactSeries, ProvedSeries};
 
 /// Stack size of the thread that derives a series. Nothing recurses deeply, but unoptimized code has large frames, and the caller's thread may have a
 /// small stack.
@@ -37,10 +37,22 @@ impl SeriesText {
     /// # Errors
     /// Why there is none. It is unproved if the texts are not those of a machine.
     pub fn derive(&self) -> Result<ProvedSeries, NoSeries> {
+        self.derive_by(ProvedSeries::derive)
+    }
+
+    /// Derives the series while contacts are closed, and proves it.
+    ///
+    /// # Errors
+    /// As [`derive`](Self::derive).
+    pub fn derive_with_contacts(&self) -> Result<ProvedContactSeries, NoSeries> {
+        self.derive_by(ProvedContactSeries::derive)
+    }
+
+    fn derive_by<P: Send>(&self, by: fn(&Model<'_>) -> Result<P, NoSeries>) -> Result<P, NoSeries> {
         let derive = || {
             let dag = Dag::new();
             let model = self.model(&dag).ok_or(NoSeries::Unproved)?;
-            ProvedSeries::derive(&model)
+            by(&model)
         };
         thread::scope(|scope| {
             let thread = thread::Builder::new().stack_size(STACK);

@@ -5,6 +5,7 @@ mod accuracy;
 mod candidates;
 mod charts;
 mod constraints;
+mod contact_series;
 mod derivatives;
 mod disguised;
 mod friction;

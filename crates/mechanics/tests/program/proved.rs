@@ -406,11 +406,12 @@ fn a_program_that_is_not_proved_is_not_called_wrong() {
         });
     }
     let (codes, text) = told(&chain("496809588436491571234"));
-    assert_eq!(codes, [Code::Internal]);
+    assert_eq!(codes, [Code::TooLarge]);
     assert!(
         text.contains("could not be proved") && text.contains("undecided"),
         "{text}"
     );
+    assert!(text.contains("numbers from 1e-20 to 1e20"), "{text}");
     assert!(!text.contains("is wrong"), "{text}");
 }
 

@@ -433,8 +433,8 @@ impl<T: Copy> Expander<T> {
         }
     }
 
-    /// Factors the mass matrix, bordered by the rows of constraints, which is the gradient of the residuals: L D Lᵀ.
-    /// The pivots of constraints are negative as long as the constraints are independent.
+    /// Factors the mass matrix, bordered by the rows of constraints, which is the gradient of the residuals: L D Lᵀ; with friction of a contact that slips it is
+    /// inverted. The pivots of constraints are negative as long as the constraints are independent.
     #[inline(always)]
     fn factor<N: Scalar<Stored = T>>(&mut self, series: &Series) -> Result<(), Singular> {
         for block in &mut self.blocks {
@@ -453,9 +453,18 @@ impl<T: Copy> Expander<T> {
             }
             let is_held = |member: &u32| *member as usize >= series.dimension();
             let held = block.members.iter().position(is_held).unwrap_or(count);
-            steps::factor::<N>(count, held, &mut block.matrix).map_err(|vanished| Singular {
-                coordinate: block.members[vanished.row] as usize,
-                ratio: (vanished.pivot / vanished.scale).to_f64(),
+            let factored = if series.is_symmetric {
+                steps::factor::<N>(count, held, &mut block.matrix)
+            } else {
+                steps::invert_unsymmetric::<N>(count, held, &mut block.matrix)
+            };
+            factored.map_err(|vanished| {
+                let (pivot, scale) = (vanished.pivot.to_f64(), vanished.scale.to_f64());
+                Singular {
+                    coordinate: block.members[vanished.row] as usize,
+                    // As in the programs of accelerations, 0/0 is reported as 0.
+                    ratio: if pivot == 0.0 { 0.0 } else { pivot / scale },
+                }
             })?;
         }
         Ok(())

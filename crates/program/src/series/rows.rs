@@ -1,6 +1,7 @@
 //! Operands and dependencies of rows.
 
 use super::{Level, NoSeries, Row, RowId, Series, Stream};
+use lagrangian_symbolic::sorting::sort_by_key;
 
 impl Series {
     /// The series without unused rows.
@@ -91,7 +92,9 @@ impl Series {
         let mut ready = vec![0_u32; self.rows.len()];
         for index in 0..self.rows.len() {
             if let Row::Sum(terms) = &mut self.rows[index] {
-                terms.sort_by_key(|(_, row)| (self.levels[row.index()], ready[row.index()], *row));
+                sort_by_key(terms, |(_, row)| {
+                    (self.levels[row.index()], ready[row.index()], *row)
+                });
             }
             let mut after = 0;
             self.rows[index].for_each_operand(|operand| {
@@ -152,6 +155,25 @@ impl Series {
 }
 
 impl Row {
+    /// Its level, where those of all earlier rows are known.
+    pub fn level(&self, levels: &[Level]) -> Level {
+        let mut level = match self {
+            Row::Time | Row::Coordinate(_) | Row::Input(_) => Level::Position,
+            Row::Rate(_) | Row::First(_) => Level::Rate,
+            Row::Acceleration(_) | Row::Second(_) => Level::Acceleration,
+            _ => Level::Constant,
+        };
+        self.for_each_operand(|operand| {
+            if let Some(&of) = levels.get(operand.index()) {
+                level = level.max(of);
+            }
+        });
+        match self {
+            Row::First(of) if levels[of.index()] == Level::Rate => Level::Acceleration,
+            _ => level,
+        }
+    }
+
     /// Calls `visit` with every row that it is made from.
     pub fn for_each_operand(&self, mut visit: impl FnMut(RowId)) {
         match self {
@@ -186,8 +208,13 @@ impl Row {
     }
 
     /// This row with its operands renumbered.
-    fn renumbered(mut self, place: &[RowId]) -> Row {
-        let to = |row: &mut RowId| *row = place[row.index()];
+    fn renumbered(self, place: &[RowId]) -> Row {
+        self.with_operands(|row| place[row.index()])
+    }
+
+    /// This row with other operands.
+    pub(super) fn with_operands(mut self, mut place: impl FnMut(RowId) -> RowId) -> Row {
+        let mut to = |row: &mut RowId| *row = place(*row);
         match &mut self {
             Row::Number(_)
             | Row::Pi
@@ -201,7 +228,7 @@ impl Row {
             Row::TanhSlope(a) | Row::Exp(a) => to(a),
             Row::Sum(terms) => {
                 for (coefficient, row) in terms {
-                    coefficient.iter_mut().for_each(to);
+                    coefficient.iter_mut().for_each(&mut to);
                     to(row);
                 }
             }

@@ -485,9 +485,10 @@ impl Arithmetic for Counter<'_> {
         self.multiply(factor, newest)
     }
     fn second_factors(&mut self, row: RowId) -> [Number; 2] {
-        let newest = match self.series.is_integral(row) {
-            true => self.scaled[row.index()],
-            false => self.newest[row.index()],
+        let newest = if self.series.is_integral(row) {
+            self.scaled[row.index()]
+        } else {
+            self.newest[row.index()]
         };
         [Number::At(0), newest.unwrap_or(Number::Zero)]
     }

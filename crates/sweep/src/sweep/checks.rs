@@ -1,6 +1,6 @@
 //! Checks of a plan against its machine.
 
-use lagrangian::ContactEventKind;
+use lagrangian::{ContactEventKind, LEAST_RELATIVE_TOLERANCE};
 use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_spec::model::{Contact, Model};
 
@@ -17,6 +17,7 @@ pub(super) fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity
     check_times(plan)?;
     check_events(plan, model)?;
     check_names(plan, model)?;
+    check_kept(plan, model)?;
     check_powers(plan, model)?;
     let varied = plan.varied().into_iter();
     Ok(varied.map(|name| VariedQuantity::of(name, model)).collect())
@@ -52,6 +53,15 @@ fn check_design(plan: &Plan) -> Result<(), PlanError> {
 /// Checks how long runs last, and when they are recorded.
 fn check_times(plan: &Plan) -> Result<(), PlanError> {
     let wrong = |message: String| Err(PlanError::Plan(message));
+    if !(LEAST_RELATIVE_TOLERANCE..1.0).contains(&plan.tolerance) {
+        return wrong(format!(
+            "--tolerance {}: a tolerance must be less than 1, and at least {LEAST_RELATIVE_TOLERANCE:.1e}, which is the limit of round-off",
+            plan.tolerance
+        ));
+    }
+    if plan.max_steps == 0 {
+        return wrong("--max-steps 0: a run needs at least one step".into());
+    }
     if !(plan.until.is_finite() && plan.until != 0.0) {
         return wrong("a sweep needs a duration: --until must be a number other than 0".into());
     }
@@ -61,6 +71,10 @@ fn check_times(plan: &Plan) -> Result<(), PlanError> {
             "--record at={t}: that is not within the run, which lasts until {} s",
             plan.until
         ));
+    }
+    let mut recorded = plan.at.iter().enumerate();
+    if let Some((_, t)) = recorded.find(|(k, t)| plan.at[..*k].contains(t)) {
+        return wrong(format!("--record at={t}: {t} s is given more than once"));
     }
     if let Some(after) = plan
         .after
@@ -108,6 +122,12 @@ fn check_events(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
             "--record event={name}: there is no such event; {help}"
         ));
     }
+    let mut recorded = plan.at_events.iter().enumerate();
+    if let Some((_, name)) = recorded.find(|(k, name)| plan.at_events[..*k].contains(name)) {
+        return wrong(format!(
+            "--record event={name}: `{name}` is given more than once"
+        ));
+    }
     for reduction in plan
         .reduce
         .iter()
@@ -148,6 +168,7 @@ fn check_names(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
             ));
         }
     }
+    let mut values = std::collections::BTreeSet::new();
     for name in plan
         .set
         .iter()
@@ -155,6 +176,14 @@ fn check_names(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
         .chain(starts_and_rates.iter().map(String::as_str))
     {
         unit_of(model, name).map_err(PlanError::Plan)?;
+        if !values.insert(name) {
+            return wrong(format!("`{name}` is set more than once"));
+        }
+    }
+    let reductions = plan.reduce.iter().map(|of| ("--reduce", &of.name));
+    let mut named = reductions.chain(plan.events.iter().map(|of| ("--event", &of.name)));
+    if let Some((option, _)) = named.find(|(_, name)| name.trim().is_empty()) {
+        return wrong(format!("{option}: a name is empty"));
     }
     for (name, _) in &plan.inputs {
         let mut inputs = model.inputs.iter();
@@ -165,6 +194,23 @@ fn check_names(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
             return wrong(format!(
                 "`{name}` is driven by --input, and has one value by --set too"
             ));
+        }
+    }
+    Ok(())
+}
+
+/// Checks the names of start values that the projection onto the constraints keeps: each is given once.
+fn check_kept(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
+    let names = plan.keep.as_deref().unwrap_or_default();
+    for (k, name) in names.iter().enumerate() {
+        let rate = name.strip_prefix("der(");
+        let coordinate = rate.and_then(|rate| rate.strip_suffix(')')).unwrap_or(name);
+        unit_of(model, &format!("start({coordinate})"))
+            .map_err(|why| PlanError::Plan(format!("--keep {name}: {why}")))?;
+        if names[..k].contains(name) {
+            return Err(PlanError::Plan(format!(
+                "--keep names `{name}` more than once"
+            )));
         }
     }
     Ok(())

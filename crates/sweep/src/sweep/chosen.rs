@@ -11,7 +11,10 @@ pub(super) fn methods(choices: &[MethodChoice], handovers: &[Handover]) -> Strin
             t, method, reason, ..
         } = choice;
         // A run whose flights go by series changes as often as its contacts do.
-        if matches!(reason, MethodReason::Open | MethodReason::Closed) {
+        if matches!(
+            reason,
+            MethodReason::Open | MethodReason::Closed | MethodReason::ClosedInSeries
+        ) {
             continue;
         }
         let name = method.tableau.name;

@@ -50,6 +50,12 @@ pub(super) fn formulas(
     let own = model.outputs.len() - asked.len();
     let outputs = (own..).zip(&model.outputs[own..]);
     let formulas = outputs.zip(asked).map(|((output, formula), asked)| {
+        if formula.value.stage() < stage::TIME && is_of_event(asked) {
+            return Err(PlanError::Plan(format!(
+                "{}: `{}` depends only on numbers and parameters, so that it never changes its sign; give a formula in coordinates, rates or the time `t`",
+                asked.source_name, asked.text
+            )));
+        }
         let reads_accelerations = formula.value.stage() == stage::ACCELERATION;
         if reads_accelerations && !asked.source_name.starts_with("--reduce") {
             return Err(PlanError::Plan(format!(
@@ -63,6 +69,13 @@ pub(super) fn formulas(
         })
     });
     formulas.collect()
+}
+
+/// Whether a formula is that of an event.
+fn is_of_event(asked: &OutputFormula<'_>) -> bool {
+    ["--event", "--until-event"]
+        .iter()
+        .any(|option| asked.source_name.starts_with(option))
 }
 
 /// For each fact that the spec assumes its text and its place in the spec.
@@ -99,7 +112,10 @@ pub(super) fn machine(
             method = <&Method>::default();
             warning = Some(without(method, reason));
         }
-        machine = machine.with_series(series);
+        let text = text_of_series(plan, false).map_err(PlanError::Plan)?;
+        machine = machine
+            .with_series(series)
+            .with_contact_series_on_demand(move || text.derive_with_contacts());
     }
     Ok((machine, method, warning))
 }
@@ -126,7 +142,10 @@ pub(super) fn in_cartesian(
         if series.is_err() {
             return None;
         }
-        machine = machine.with_series(series);
+        let text = text_of_series(plan, true).ok()?;
+        machine = machine
+            .with_series(series)
+            .with_contact_series_on_demand(move || text.derive_with_contacts());
     }
     if plan.method == AUTO {
         let text = text_of_series(plan, true).ok()?;

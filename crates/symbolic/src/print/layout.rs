@@ -5,6 +5,7 @@ use core::cmp::Reverse;
 use crate::arena::Arena;
 use crate::node::{Function, Id, Node, Stage};
 use crate::rational::Rational;
+use crate::sorting::sort_by_key;
 
 /// A term `±scale·node` of a sum.
 pub(super) struct Term {
@@ -36,7 +37,7 @@ pub(super) fn terms(arena: &Arena, terms: &[(Id, Rational)], flat: bool) -> Vec<
     }
     if flat {
         // Terms from different opened sums may be alike.
-        shown.sort_by_key(|(id, _)| *id);
+        sort_by_key(&mut shown, |(id, _)| *id);
         shown.dedup_by(|(id, coefficient), (kept, sum)| {
             let same = id == kept;
             if same {
@@ -86,7 +87,7 @@ pub(super) fn fraction(arena: &Arena, id: Id, order: Order) -> Fraction {
             .filter(|(_, n)| (*n > 0) == wanted)
             .map(|&(id, n)| (id, n.unsigned_abs()))
             .collect();
-        side.sort_by_key(|&(id, _)| match order {
+        sort_by_key(&mut side, |&(id, _)| match order {
             Order::Stages => factor_key(arena, id),
             Order::FunctionsLast => typeset_key(arena, id),
         });

@@ -67,7 +67,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return diagnostic;
         };
         let hint = format!(
-            "`{name}` is declared in this machine, and therefore is not the unit: write only the number, in SI units"
+            "`{name}` is declared in this machine, and therefore is not the unit: {}",
+            in_place_of_hidden(name)
         );
         let help = match &diagnostic.help {
             Some(help) => format!("{help}; {hint}"),
@@ -236,8 +237,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let message = format!("nothing is named `{}`", name.text);
         let diagnostic = Diagnostic::new(Code::UnknownName, name.span, message);
         self.push(diagnostic.help(format!(
-            "`{}` is a unit only after a number or another unit, and `{declared}` is declared here and therefore is not a unit: write only the number, in SI units",
-            name.text
+            "`{}` is a unit only after a number or another unit, and `{declared}` is declared here and therefore is not a unit: {}",
+            name.text,
+            in_place_of_hidden(declared)
         )));
     }
 
@@ -419,6 +421,17 @@ pub(super) fn unit_factor_help(reason: &str, found: Unit, expected: Unit) -> Str
         )
     } else {
         reason.to_owned()
+    }
+}
+
+/// What to write in place of a unit whose name a quantity of the machine has.
+fn in_place_of_hidden(name: &str) -> String {
+    let prefixed = ["m", "k"].map(|prefix| format!("{prefix}{name}"));
+    match prefixed.iter().find(|unit| Measure::named(unit).is_some()) {
+        Some(unit) => format!(
+            "write another unit, such as `{unit}`, or only the number, in SI units, where it stands alone"
+        ),
+        None => "write another unit, or only the number, in SI units, where it stands alone".into(),
     }
 }
 

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::values::Values;
 use super::vector::{difference, dot, ground, quotient, scaled};
 use super::{
-    Lagrange, LiteralSliding, LiteralUnilateral, Moving, Varied, carried,
+    Lagrange, LiteralSliding, LiteralUnilateral, Moving, SmoothContact, State, Varied, carried,
     centre_and_angular_velocity, here, of_position, of_rate, point_and_angular_velocity,
     turned_left,
 };
@@ -26,8 +26,53 @@ impl<'d> Lagrange<'_, 'd> {
         x: &Values<'_, Varied<R>>,
         pair: &mut Option<PolygonPair<'d, R>>,
     ) -> Vec<LiteralUnilateral<R>> {
+        let touch = self.touch(contact, x, |corner| {
+            let known = pair.take().filter(|pair| pair.is_of(corner));
+            let of_corner = known.unwrap_or_else(|| PolygonPair::new(self.model, corner, x));
+            let corner_motion = of_corner.corner(corner);
+            *pair = Some(of_corner);
+            Some(Touch {
+                gap: corner_motion.height,
+                slip: corner_motion.slip,
+                across: None,
+                face: (!corner.yields).then_some((corner_motion.opening, corner_motion.beyond)),
+            })
+        });
+        touch.map_or_else(Vec::new, |touch| self.of_touch(contact, touch, x))
+    }
+
+    /// The rigid contacts whose gaps are smooth, and `None` for others, in the order of the unilateral contacts of a machine. Numbers that only these need (power
+    /// series) are not instantiated for polygons.
+    pub fn smooth_contacts<R: Scalar>(
+        &self,
+        at: &State<R>,
+        w: &[R],
+    ) -> Vec<Option<SmoothContact<R>>> {
+        let x = self.along(self.roots.len(), |symbol| self.moving(symbol, at, w));
+        let mut all = Vec::new();
+        for contact in &self.model.contacts {
+            let Some(touch) = self.touch(contact, &x, |_| None) else {
+                all.push(None);
+                continue;
+            };
+            let of_contact = self.of_touch(contact, touch, &x);
+            all.extend(of_contact.into_iter().enumerate().map(|(part, contact)| {
+                Some(SmoothContact {
+                    contact,
+                    is_carried: part > 0,
+                })
+            }));
+        }
+        all
+    }
+
+    fn of_touch<R: Scalar>(
+        &self,
+        contact: &Contact<'d>,
+        touch: Touch<R>,
+        x: &Values<'_, Varied<R>>,
+    ) -> Vec<LiteralUnilateral<R>> {
         let model = self.model;
-        let touch = self.touch(contact, x, pair);
         let here = |e: Expr<'d>| x.value(e).value.value;
         let known = |e: Option<Expr<'d>>| e.map_or(R::ZERO, here);
         let friction = contact.friction;
@@ -76,13 +121,13 @@ impl<'d> Lagrange<'_, 'd> {
         all
     }
 
-    /// The relative motion of what touches in a contact.
+    /// The relative motion of what touches in a contact; that of a corner of a polygon is given by the function.
     fn touch<R: Scalar>(
         &self,
         contact: &Contact<'d>,
         x: &Values<'_, Varied<R>>,
-        pair: &mut Option<PolygonPair<'d, R>>,
-    ) -> Touch<R> {
+        of_corner: impl FnOnce(&Corner<'d>) -> Option<Touch<R>>,
+    ) -> Option<Touch<R>> {
         let model = self.model;
         let of_round = |round: &Circle<'d>, surface: Surface| {
             let (gap, slip, across) = match model.space {
@@ -103,28 +148,17 @@ impl<'d> Lagrange<'_, 'd> {
             }
         };
         match &contact.geometry {
-            ContactGeometry::Corner(corner) => {
-                let known = pair.take().filter(|pair| pair.is_of(corner));
-                let of_corner = known.unwrap_or_else(|| PolygonPair::new(model, corner, x));
-                let corner_motion = of_corner.corner(corner);
-                *pair = Some(of_corner);
-                Touch {
-                    gap: corner_motion.height,
-                    slip: corner_motion.slip,
-                    across: None,
-                    face: (!corner.yields).then_some((corner_motion.opening, corner_motion.beyond)),
-                }
-            }
+            ContactGeometry::Corner(corner) => of_corner(corner),
             ContactGeometry::Circles(touching) => {
-                of_round(&model.circles[touching.circle], touching.surface)
+                Some(of_round(&model.circles[touching.circle], touching.surface))
             }
-            ContactGeometry::Point { point, surface } => of_round(point, *surface),
-            ContactGeometry::Expressions { gap, slip, across } => Touch {
+            ContactGeometry::Point { point, surface } => Some(of_round(point, *surface)),
+            ContactGeometry::Expressions { gap, slip, across } => Some(Touch {
                 gap: x.at(*gap),
                 slip: x.value(*slip),
                 across: across.map(|across| x.value(across)),
                 face: None,
-            },
+            }),
         }
     }
 

@@ -8,6 +8,7 @@ use crate::lower::bars;
 use crate::lower::bars::Arm;
 use crate::{InertialPair, Unprojected};
 use lagrangian_spec::model::Model;
+use lagrangian_symbolic::sorting::sort_by_key;
 use lagrangian_symbolic::{Expr, Id, Node, Rational, Stage, Symbol, Tangent, reachable, reverse};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -174,7 +175,7 @@ impl<'d> Front<'d> {
                 continue;
             };
             let mut parts = parts;
-            parts.sort_by_key(|(_, c)| c.stage() > Stage::PARAMETER);
+            sort_by_key(&mut parts, |(_, c)| c.stage() > Stage::PARAMETER);
             let &[(joint, one), (turning, across)] = parts.as_slice() else {
                 continue;
             };

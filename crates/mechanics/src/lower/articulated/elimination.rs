@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::totals::{factors_of, terms_of};
 use super::{Composition, EliminatedVelocity, Front, Order, TakenRows, Update};
+use lagrangian_symbolic::sorting::sort_by_key;
 use lagrangian_symbolic::{Expr, Function, Id, Node, Stage};
 use rustc_hash::FxHashSet;
 
@@ -412,7 +413,7 @@ impl<'d> Front<'d> {
             (column.iter().filter(varies).count(), column.len())
         };
         let mut columns: Vec<(Id, Vec<(usize, Expr<'d>)>)> = columns.into_iter().collect();
-        columns.sort_by_key(|(id, column)| (weight(column), *id));
+        sort_by_key(&mut columns, |(id, column)| (weight(column), *id));
         for (position, (x, column)) in columns.iter().enumerate() {
             let mut products: BTreeMap<usize, Vec<Expr<'d>>> = BTreeMap::new();
             for (l, c) in column {

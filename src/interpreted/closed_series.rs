@@ -1,0 +1,161 @@
+//! The Taylor series of a machine's motion while unilateral contacts are closed: derived when a contact of a run by series closes first, and from then on taken
+//! for each set of closed contacts out of the rows of all.
+
+use core::fmt;
+use std::boxed::Box;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::vec::Vec;
+
+use lagrangian_mechanics::series::ProvedContactSeries;
+use lagrangian_program::Singular;
+use lagrangian_program::series::{ContactSeries, ContactState, NoSeries};
+
+use super::engine::MachineCode;
+use super::expanding::Expanding;
+use super::motion_series::Known;
+use crate::ContactMode;
+
+/// The most sets of closed contacts whose series a machine keeps. In others a run goes on without series.
+const MOST_SETS: usize = 64;
+
+/// The most of them that a system keeps ready to be expanded.
+const MOST_READY: usize = 8;
+
+/// Derives the series, in any thread.
+type Derive = dyn Fn() -> Result<ProvedContactSeries, NoSeries> + Send + Sync;
+
+/// The series of a machine while contacts are closed, shared by its clones and by their systems.
+#[derive(Clone, Default)]
+pub(super) struct ClosedSeries(Option<Arc<Shared>>);
+
+/// What contacts do, and the series of the motion then, if there is one.
+type Set = (Vec<ContactState>, Option<Arc<Known>>);
+
+struct Shared {
+    derive: Box<Derive>,
+    /// The rows of all contacts; `None` if there are none.
+    known: OnceLock<Option<Arc<ContactSeries>>>,
+    sets: Mutex<Vec<Set>>,
+}
+
+impl ClosedSeries {
+    /// The one that `derive` returns.
+    pub(super) fn on_demand(derive: Box<Derive>) -> ClosedSeries {
+        ClosedSeries(Some(Arc::new(Shared {
+            derive,
+            known: OnceLock::new(),
+            sets: Mutex::default(),
+        })))
+    }
+
+    /// The series while contacts do this, if there is one.
+    fn of(&self, states: &[ContactState]) -> Option<Arc<Known>> {
+        let shared = self.0.as_ref()?;
+        let derived = || (shared.derive)().ok().map(|proved| (*proved).clone());
+        let all = shared.known.get_or_init(derived).as_ref()?;
+        let mut sets = shared.sets.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, known)) = sets.iter().find(|(set, _)| set == states) {
+            return known.clone();
+        }
+        if sets.len() == MOST_SETS {
+            return None;
+        }
+        let series = all.with(states);
+        let known = series.map(|series| Arc::new(Known::of(Ok(Arc::new(series)))));
+        sets.push((states.to_vec(), known.clone()));
+        known
+    }
+}
+
+impl fmt::Debug for ClosedSeries {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match &self.0 {
+            None => "none",
+            Some(shared) if shared.known.get().is_none() => "not derived yet",
+            Some(_) => "derived",
+        })
+    }
+}
+
+/// The series of the sets of closed contacts that a system came to last, with the memory of their expansions.
+#[derive(Clone, Debug)]
+pub(super) struct ExpandingClosed {
+    series: ClosedSeries,
+    engine: MachineCode,
+    ready: Vec<Ready>,
+    /// Memory for the states of contacts.
+    states: Vec<ContactState>,
+}
+
+/// The series of a set of closed contacts.
+#[derive(Clone, Debug)]
+struct Ready {
+    states: Vec<ContactState>,
+    known: Arc<Known>,
+    expanding: Expanding,
+}
+
+impl ExpandingClosed {
+    pub(super) fn new(series: ClosedSeries, engine: MachineCode) -> ExpandingClosed {
+        ExpandingClosed {
+            series,
+            engine,
+            ready: Vec::new(),
+            states: Vec::new(),
+        }
+    }
+
+    /// The series while contacts do this, if there is one.
+    fn find(&mut self, contacts: &[ContactMode]) -> Option<&mut Ready> {
+        self.series.0.as_ref()?;
+        self.states.clear();
+        for contact in contacts {
+            self.states.push(state(*contact)?);
+        }
+        let states = &self.states;
+        if let Some(place) = self.ready.iter().position(|of| of.states == *states) {
+            return self.ready.get_mut(place);
+        }
+        let known = self.series.of(states)?;
+        if self.ready.len() == MOST_READY {
+            self.ready.remove(0);
+        }
+        self.ready.push(Ready {
+            states: states.clone(),
+            known,
+            expanding: Expanding::new(self.engine.clone()),
+        });
+        self.ready.last_mut()
+    }
+
+    /// Whether there is a series while contacts do this.
+    pub(super) fn has(&mut self, contacts: &[ContactMode]) -> bool {
+        self.find(contacts).is_some()
+    }
+
+    /// Expands the motion while contacts do this through a state, as [`Expanding::expand`].
+    pub(super) fn expand(
+        &mut self,
+        contacts: &[ContactMode],
+        parameters: impl FnOnce() -> Vec<f64>,
+        at: ([f64; 2], [&[f64]; 3]),
+        coefficients: &mut [Vec<f64>],
+    ) -> Result<(), Singular> {
+        match self.find(contacts) {
+            Some(Ready {
+                known, expanding, ..
+            }) => expanding.expand((known, parameters), at, coefficients),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What a contact does, unless it slips in space.
+fn state(contact: ContactMode) -> Option<ContactState> {
+    match contact {
+        ContactMode::Open => Some(ContactState::Open),
+        ContactMode::Sticks => Some(ContactState::Sticks),
+        ContactMode::Slides(sign) => Some(ContactState::Slips(sign as i8)),
+        ContactMode::SlidesAlong(_) => None,
+    }
+}
