@@ -1,12 +1,11 @@
 //! Unilateral contacts in time stepping: checks and records.
 
-use std::vec;
 use std::vec::Vec;
 
 use super::Run;
 use super::contacts::ReportedEvent;
 use crate::balance::Quadratures;
-use crate::contact::{Mode, UnilateralState};
+use crate::contact::Mode;
 use crate::inputs::InputLaw;
 use crate::phases::{Change, Phase, StepRecord};
 use crate::{ContactEventKind, ContactImpact, Error, Machine};
@@ -14,19 +13,27 @@ use crate::{ContactEventKind, ContactImpact, Error, Machine};
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// Checks the contacts at the start of time stepping: none may be penetrated, and time stepping must support
     /// the law of each.
-    pub(super) fn begin_stepping(&mut self, touching: &UnilateralState) -> Result<(), Error> {
+    pub(super) fn begin_stepping(&mut self) -> Result<(), Error> {
+        self.stepper.close_guides();
+        let Some(touching) = self.stepper.touching() else {
+            return Ok(());
+        };
         let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
         touching
             .check_stepping(t)
             .map_err(|error| self.model.explain(error, q, v))?;
-        self.record.unilateral.last = vec![false; touching.modes().len()];
-        self.push_phase(Phase {
+        // A guide is closed from the beginning.
+        self.record.unilateral.last = (touching.modes().iter())
+            .map(|mode| *mode != Mode::Open)
+            .collect();
+        let phase = Phase {
             since: t,
             until: f64::INFINITY,
             touching: touching.clone(),
             change: Change::default(),
             constraints: self.stepper.constraints().clone(),
-        });
+        };
+        self.push_phase(phase);
         Ok(())
     }
 
@@ -46,6 +53,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         of_step.before.extend_from_slice(before.modes());
         of_step.after.clear();
         of_step.after.extend_from_slice(now.modes());
+        let mut switched = Vec::new();
+        if before.has_guides() {
+            switched = before.switched(now.modes(), now.sides());
+            // To which side it pressed before the first step is not known.
+            switched.retain(|guide| before.sides()[*guide] != 0.0);
+        }
         let StepRecord {
             stepped,
             before,
@@ -104,6 +117,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 _ => [kind.1, 0.0],
             };
             reported.push((k, kind.0, directions, None));
+        }
+        for guide in switched {
+            reported.push((guide, ContactEventKind::Switches, [0.0; 2], None));
         }
         self.activity.count_quiet_step(reported.is_empty());
         self.enter_contact_events(reported, &[]);
