@@ -21,7 +21,10 @@ pub(super) fn machine(text: &str, settings: &[(&str, f64)]) -> InterpretedMachin
     machine
 }
 
-fn run_to(machine: &InterpretedMachine, until: f64) -> Result<Solution<InterpretedMachine>, Error> {
+pub(super) fn run_to(
+    machine: &InterpretedMachine,
+    until: f64,
+) -> Result<Solution<InterpretedMachine>, Error> {
     Simulation::new(machine)
         .method(Method::named("dop853").expect("a method"))
         .tolerance(TOLERANCE)
@@ -31,7 +34,7 @@ fn run_to(machine: &InterpretedMachine, until: f64) -> Result<Solution<Interpret
 }
 
 /// Runs a machine and checks that its energy balance closes, and that no impact creates energy.
-fn run(machine: &InterpretedMachine, until: f64) -> Solution<InterpretedMachine> {
+pub(super) fn run(machine: &InterpretedMachine, until: f64) -> Solution<InterpretedMachine> {
     let run = run_to(machine, until).unwrap_or_else(|error| panic!("{error}"));
     is_booked(&run);
     run
@@ -306,7 +309,7 @@ fn a_guide_without_friction_is_no_guide() {
 }
 
 /// A block that is held on its rail by its weight is a block on a floor: with a floor as a contact, which has no restitution, everything is the same, the impact
-/// with a wall that presses it down included, by each law that supports guides.
+/// with a wall that presses it down included, by each law of several contacts at once.
 #[test]
 fn a_guide_that_presses_to_one_side_is_a_contact() {
     let on_floor = "machine OnFloor in plane {
@@ -456,7 +459,7 @@ fn impulses_on_a_cart_and_its_pendulum_are_those_by_hand() {
 }
 
 /// Runs a machine in which no impact and no friction creates energy, with its books closed, and counts its impacts.
-fn never_gains_energy(text: &str, settings: &[(&str, f64)], until: f64) -> usize {
+pub(super) fn never_gains_energy(text: &str, settings: &[(&str, f64)], until: f64) -> usize {
     let run = run_to(&machine(text, settings), until)
         .unwrap_or_else(|error| panic!("{error} {settings:?}"));
     is_booked(&run);
@@ -572,21 +575,6 @@ fn impacts_in_sequence_load_the_guide_each() {
     let other = run(&machine(&PENDULUM_AND_WALL.replace("LAW", ""), &[]), 1.0);
     assert!(!one.contact_events().is_empty());
     assert_near(q(one.end(), "x"), q(other.end(), "x"), 1e-10);
-}
-
-/// What guides beside contacts do not support is refused, with what to do.
-#[test]
-fn what_guides_beside_contacts_do_not_support_is_refused() {
-    for (law, word) in [
-        ("stronge", "`law: stronge` does not support `sliding`"),
-        ("poisson", "Routh"),
-    ] {
-        let text = BLOCK_AND_STOP.replace("restitution: e", &format!("restitution: e, law: {law}"));
-        let Err(error) = InterpretedMachine::from_text(text).build() else {
-            panic!("{law} is refused");
-        };
-        assert!(error.to_string().contains(word), "{error}");
-    }
 }
 
 /// A block that rests at an oblique wall: how much wall and rail hold of each other is undetermined, and the block is held as long as some of it permits. A force that
