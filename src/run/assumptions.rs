@@ -382,7 +382,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         // All searches begin with the same fractions.
         let mut known = KnownStates::of_searches(count);
         for index in (0..count).filter(|index| places[*index] == Some(Places::All)) {
-            let margin = |theta: f64| Ok(self.margin(index, known.at(theta, &at)?));
+            let margin = |theta: f64| Ok(self.margin(index, known.at(theta, at)?));
             let may_continue = || event::go_on_unless(shall_stop(event::beginning(stepper)));
             let found = roots::isolating_fractions(margin, may_continue);
             looks.extend(found.map_err(|why| {
