@@ -46,9 +46,10 @@ pub(crate) const SHORTEST_STEPS: f64 = 100.0;
 /// Number of coefficients of the accelerations for tolerances above [`FINE`], and for finer ones.
 const ORDERS: [usize; 2] = [12, 20];
 
-/// Below this tolerance the higher order costs less time: the cost of products of series grows with the square of the order, the
-/// rest of a step with the order itself, but at fine tolerances the gain in step length is larger.
-pub(crate) const FINE: f64 = 1e-5;
+/// From this sum of both tolerances down the higher order costs less time: the cost of products of series grows with the square of the order, the
+/// rest of a step with the order itself, but at fine tolerances the gain in step length is larger. At a sum of 2e-5 it takes 0.59 to 0.99 of the time on all
+/// machines of the bench but the six-joint arm; at 2e-4 it takes more on a third of them, and most errors are larger (`docs/benchmarks.md`).
+pub(crate) const FINE: f64 = 3e-5;
 
 /// The number of coefficients of a coordinate for the sum of the relative and the smallest absolute tolerance.
 pub(crate) fn rows(tolerance: f64) -> usize {
