@@ -57,7 +57,6 @@ use crate::proof::symbolic::with_guarded_values;
 use crate::{Dependent, Equations};
 use crate::{Disagreement, POINTS};
 pub use charts::{Uncharted, prove_charts};
-use lagrangian_program::quantity::Use;
 use lagrangian_program::{
     Arguments, Function as PlannedFunction, Interpreter, Op, Program, Role, Shape,
 };
@@ -450,8 +449,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             return ComparisonResult::Wrong(Disagreement::NotCompared { role });
         }
         let is_covered = |role: Role| {
-            self.compared.contains(&role)
-                || (role.row().called != Use::Seldom && !self.has_had_accelerations)
+            self.compared.contains(&role) || (role.is_fast() && !self.has_had_accelerations)
         };
         let functions = self.parts.program.functions.iter();
         match functions.map(|f| f.role).find(|role| !is_covered(*role)) {
@@ -509,6 +507,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let n = machine.model.coordinates.len();
         let w = self.random_numbers(1, n);
         let literal = machine.at(&state, &w);
+        self.check_values(&state, &literal)?;
         let computed = self.computed(&state)?;
         self.check_dynamics(&state, &w, &literal, &computed)?;
         self.check_constraints(&state, &w, &literal, &computed)?;
