@@ -45,7 +45,7 @@ pub(crate) const RESIDUAL: f64 = 1e-13;
 /// Residuals above this are reduced, so that rows that depend on several others satisfy the bound as well.
 const REDUCTION_THRESHOLD: f64 = 0.25 * RESIDUAL;
 
-/// The same if rows are dependent, or nearly so: the chosen rows change along the motion, and the residuals of the other rows must be as
+/// The threshold if rows are dependent, or nearly so: the chosen rows change along the motion, and the residuals of the other rows must be as
 /// small. Newton's method continues until rounding stops it.
 const REDUCTION_THRESHOLD_REDUNDANT: f64 = 4.0 * f64::EPSILON;
 
@@ -584,7 +584,7 @@ impl<V: Vector> Constraints<V> {
         self.factor(system, workspace, at, level)
     }
 
-    /// The same if the workspace holds the constraint matrix at this pose.
+    /// Factorizes them at a pose whose constraint matrix is in the workspace already.
     fn factor<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -727,7 +727,7 @@ fn prepare<S: System>(
     factor(system, workspace, (t, q), (choice, fixed))
 }
 
-/// The same if the workspace holds the constraint matrix at this pose.
+/// Factorizes them at a pose whose constraint matrix is in the workspace already.
 fn factor<S: System>(
     system: &S,
     workspace: &mut Workspace<'_, S::Matrix>,

@@ -299,7 +299,7 @@ fn a_box_lets_go_where_all_its_corners_can_hold_no_more() {
             assert_near(value(&run.end().q, "x"), -expected, 1e-7);
         }
     }
-    // The same as a point.
+    // The block as a point.
     let point = machine(
         "machine Point in plane {
             parameters { c: N/s = 4, mu: 1 = 0.3, mu0: 1 = 0.36 }
