@@ -244,7 +244,9 @@ impl MethodRow {
         let u = given(Argument::Inputs, "&u.values");
         let mut lines = String::new();
         let arguments = if self.reads(Argument::Accelerations) {
-            lines = format!("        let arguments = Arguments {{ a, ..at(t, {q}, {v}, {u}) }};\n");
+            let rest = format!("..at(t, {q}, {v}, {u})");
+            lines += "        let arguments = Arguments {\n            a,\n";
+            lines += &format!("            {rest}\n        }};\n");
             "arguments".to_owned()
         } else {
             format!("at(t, {q}, {v}, {u})")

@@ -114,12 +114,12 @@ impl Proved {
         }
     }
 
-    /// This program with some of its functions, as [`Program::restricted`]; proved to give the same values as here.
+    /// This program with some of its functions, as [`Program::with_only`]; proved to give the same values as here.
     ///
     /// # Errors
     /// If it gives other values.
-    pub fn restricted(&self, roles: &[Role]) -> Result<Proved, Unproved> {
-        let part = self.0.restricted(roles);
+    pub fn with_only(&self, roles: &[Role]) -> Result<Proved, Unproved> {
+        let part = self.0.with_only(roles);
         for &role in roles {
             if let Err(disagreement) = same_results(&self.0, &part, role) {
                 return Err(Unproved {
@@ -387,7 +387,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let parameters = vec![R::ONE; program.parameters.len()];
         let slopes = (!program.derivatives.is_empty()).then(|| {
             let parameters = vec![Dual::<R>::ONE; program.parameters.len()];
-            Interpreter::new(&program.restricted(&[Role::Accelerations]), &parameters)
+            Interpreter::new(&program.with_only(&[Role::Accelerations]), &parameters)
         });
         Prover {
             interpreter: Interpreter::new(program, &parameters),

@@ -21,4 +21,5 @@ pub const FILES: &[(&str, &str)] = files! {
     "text.rs"
     "vector.rs"
     "x86.rs"
+    "x86/side_by_side.rs"
 };
