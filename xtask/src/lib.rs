@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use lagrangian_emit::rust;
 use lagrangian_mechanics::Compiled;
-use lagrangian_program::quantity::{Extent, ItemKind, Needs, Role, Row};
+use lagrangian_program::quantity::{Extent, ItemKind, Needs, QuantityRow, Role};
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
@@ -199,7 +199,7 @@ fn quantities() -> String {
          | --- | --- | --- | --- | --- | --- | --- |\n",
     );
     for role in Role::all() {
-        let Row {
+        let QuantityRow {
             name,
             symbol,
             extent,

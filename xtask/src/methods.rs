@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use lagrangian_program::quantity::{
-    Argument, DefaultMethod, Extent, ItemKind, Method, Needs, Role, Row,
+    Argument, DefaultMethod, Extent, ItemKind, Method, Needs, QuantityRow, Role,
 };
 
 use crate::Generated;
@@ -35,7 +35,7 @@ enum Kind {
 /// A quantity that is a method.
 struct MethodRow {
     role: Role,
-    row: &'static Row,
+    row: &'static QuantityRow,
     method: Method,
 }
 

@@ -160,7 +160,7 @@ pub struct Method {
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct QuantityRow {
     /// The name of its function.
     pub name: &'static str,
     /// Its symbol in formulas, ASCII; empty if it has none.
@@ -230,10 +230,10 @@ macro_rules! quantities {
 
         impl Role {
             /// The row of the table.
-            pub fn row(self) -> &'static Row {
+            pub fn row(self) -> &'static QuantityRow {
                 match self {
                     $(Role::$role { .. } => {
-                        const ROW: &Row = &Row {
+                        const ROW: &QuantityRow = &QuantityRow {
                             name: $name,
                             symbol: $symbol,
                             code: $code,
