@@ -44,7 +44,7 @@ pub struct InterpretedSystem {
     pub(super) series: MotionSeries,
     has_linear_assumptions: bool,
     /// The quantities of one number that are 0 at every state.
-    zeros: Vec<Role>,
+    zeros: Arc<[Role]>,
     pub(super) expanding: SharedWorkspace<Expanding>,
     expanding_closed: SharedWorkspace<ExpandingClosed>,
 }
@@ -77,7 +77,7 @@ impl InterpretedSystem {
             enclosing: SharedWorkspace::new(None),
             series: machine.series.clone(),
             has_linear_assumptions: machine.program.has_linear_assumptions(),
-            zeros: zeros(&machine.program),
+            zeros: machine.zeros.clone(),
             expanding: SharedWorkspace::new(Expanding::new(machine.machine_code.clone())),
             expanding_closed: SharedWorkspace::new(ExpandingClosed::new(
                 machine.closed_series.clone(),
@@ -173,7 +173,7 @@ impl InterpretedSystem {
 }
 
 /// The quantities of one number that are 0 at every state, of those that every system has.
-fn zeros(program: &Program) -> Vec<Role> {
+pub(super) fn zeros(program: &Program) -> Arc<[Role]> {
     let is_zero = |role: &Role| {
         let (row, function) = (role.row(), program.function(*role));
         let is_number = row.extent == Extent::Number && row.method.is_some();

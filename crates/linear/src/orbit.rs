@@ -34,7 +34,7 @@ use std::fmt;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, Simulation, State, System};
-use lagrangian_program::{Op, Role, Source};
+use lagrangian_program::{Op, Source};
 use lagrangian_units::{rate_name, state_of};
 use nalgebra::{Complex, DMatrix, DVector};
 
