@@ -1,5 +1,5 @@
-//! The methods that quantities have, written into sources of the runtime from the rows of the table: in the trait `System` with their
-//! documentation, in interpreted machines, and in wrappers.
+//! The methods that quantities have, written into sources from the rows of the table: in the trait `System` with their documentation, in
+//! interpreted machines, and in wrappers; and calls of them, in the test that compares emitted machines with interpreted ones.
 //!
 //! A source marks where these stand by a line that names them, `// <quantities: constraints>`, and a line that ends them, `// </quantities>`.
 
@@ -13,10 +13,11 @@ use lagrangian_program::quantity::{
 use crate::Generated;
 
 /// The sources that contain methods of quantities.
-const SOURCES: [&str; 3] = [
-    "src/system.rs",
+const SOURCES: [&str; 4] = [
+    "generated/tests/interpreter.rs",
     "src/forward.rs",
     "src/interpreted/system.rs",
+    "src/system.rs",
 ];
 
 /// The columns of code and of comments.
@@ -88,6 +89,10 @@ fn methods(which: &str) -> Result<String, String> {
         "interpreted" => {
             let all: Vec<String> = rows().map(|of| of.interpreted()).collect();
             all.join("\n")
+        }
+        "compared" => {
+            let all: Vec<String> = rows().map(|of| of.compared()).collect();
+            all.concat()
         }
         "forwarded" => {
             let mut arms: Vec<String> = rows().map(|of| of.forwarded()).collect();
@@ -259,6 +264,41 @@ impl MethodRow {
         };
         let head = self.head("Vec<f64>", "Named", "Vec<f64>", ["", ""]);
         format!("{head}\n{lines}    }}\n")
+    }
+
+    /// The comparison of the method of an emitted machine with the interpreter.
+    fn compared(&self) -> String {
+        let given = self.row.of.iter().map(|of| match of {
+            Argument::Time => "t".to_owned(),
+            of => format!("&{}", of.letter()),
+        });
+        let given = given.collect::<Vec<_>>().join(", ");
+        let name = self.row.name;
+        let (own, numbers) = match self.kind() {
+            Kind::Vector => ("vector(numbers)", "own.as_slice()"),
+            _ => (
+                "<M::System as System>::Matrix::zeros(n * n)",
+                "&lower(own.as_slice(), n)",
+            ),
+        };
+        let lines = match self.kind() {
+            Kind::Number => vec![format!("numbers[0] = system.{name}({given});")],
+            Kind::Numbers => vec![format!("system.{name}({given}, numbers);")],
+            Kind::Vector | Kind::Matrix => vec![
+                format!("let mut own = {own};"),
+                format!("system.{name}({given}, &mut own);"),
+                format!("numbers.copy_from_slice({numbers});"),
+            ],
+        };
+        let lines: Vec<String> = lines
+            .iter()
+            .map(|line| format!("            {line}\n"))
+            .collect();
+        let role = self.role;
+        format!(
+            "        compare(Role::{role:?}, &|numbers| {{\n{}        }});\n",
+            lines.concat()
+        )
     }
 
     /// The arm of `forward!`.
