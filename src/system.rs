@@ -584,15 +584,7 @@ pub trait System {
         self.series(t, q, v, u, coefficients)
     }
 
-    /// Whether the machine has the series of its motion while its unilateral contacts do this, of which at least one is closed. By default it has none.
-    #[cfg(feature = "std")]
-    #[doc(hidden)]
-    #[inline(always)]
-    fn has_closed_series(&self, _contacts: &[crate::ContactMode]) -> bool {
-        false
-    }
-
-    /// [`series`](Self::series) while contacts do this. Called only if there is one.
+    /// [`series`](Self::series) while unilateral contacts do this, of which at least one is closed; `None` if the motion has no series then, as by default.
     #[cfg(feature = "std")]
     #[doc(hidden)]
     #[inline(always)]
@@ -603,8 +595,8 @@ pub trait System {
         (_q, _v): (&Self::Vector, &Self::Vector),
         _u: &Self::Inputs,
         _coefficients: &mut [Self::Vector],
-    ) -> Result<(), Singular> {
-        Ok(())
+    ) -> Option<Result<(), Singular>> {
+        None
     }
 
     /// Whether the series of the motion may be that of another motion beyond some instant within a step, since a root of a quantity that may vanish

@@ -17,7 +17,7 @@ use std::vec::Vec;
 use crate::series_memory::SeriesMemory;
 use crate::stages::Point;
 use crate::tolerance::Tolerance;
-use crate::{ContactMode, Singular, System, Vector};
+use crate::{ContactMode, StepError, System, Vector};
 pub(crate) use bounds::MotionBounds;
 use length::usual_ratios;
 pub(crate) use length::{
@@ -139,13 +139,16 @@ impl<V: Vector> Taylor<V> {
     }
 
     /// Expands the motion through a state: the start, or with `ahead` the end of the step that is being tried. The contacts are given if one of them is closed.
+    ///
+    /// # Errors
+    /// If the motion has no series, or its equations are singular at this state.
     pub fn expand<S: System<Vector = V>>(
         &mut self,
         (system, closed): (&S, Option<&[ContactMode]>),
         at: &Point<V>,
         u: &S::Inputs,
         ahead: bool,
-    ) -> Result<(), Singular> {
+    ) -> Result<(), StepError> {
         let which = if ahead {
             1 - self.beginning
         } else {
@@ -155,12 +158,17 @@ impl<V: Vector> Taylor<V> {
         let t = [at.t, at.t_low];
         let (state, memory) = ((&at.q, &at.v), &mut self.memory);
         let coefficients = &mut self.coefficients[which];
-        match closed {
+        let expanded = match closed {
             Some(contacts) if S::MAY_COLLIDE => {
                 system.closed_series(contacts, t, state, u, coefficients)
             }
-            _ => system.series_with(memory, t, state, u, coefficients),
-        }
+            _ => Some(system.series_with(memory, t, state, u, coefficients)),
+        };
+        let expanded = expanded.ok_or(StepError::NoSeries {
+            inputs: false,
+            t: at.t,
+        })?;
+        expanded.map_err(|singular| StepError::Singular { singular, t: at.t })
     }
 
     /// The coefficients of the motion through the end of the step that is being tried, to be set.

@@ -128,25 +128,18 @@ impl ExpandingClosed {
         self.ready.last_mut()
     }
 
-    /// Whether there is a series while contacts do this.
-    pub(super) fn has(&mut self, contacts: &[ContactMode]) -> bool {
-        self.find(contacts).is_some()
-    }
-
-    /// Expands the motion while contacts do this through a state, as [`Expanding::expand`].
+    /// Expands the motion while contacts do this through a state, as [`Expanding::expand`]; `None` if there is no series then.
     pub(super) fn expand(
         &mut self,
         contacts: &[ContactMode],
         parameters: impl FnOnce() -> Vec<f64>,
         at: ([f64; 2], [&[f64]; 3]),
         coefficients: &mut [Vec<f64>],
-    ) -> Result<(), Singular> {
-        match self.find(contacts) {
-            Some(Ready {
-                known, expanding, ..
-            }) => expanding.expand((known, parameters), at, coefficients),
-            None => Ok(()),
-        }
+    ) -> Option<Result<(), Singular>> {
+        let Ready {
+            known, expanding, ..
+        } = self.find(contacts)?;
+        Some(expanding.expand((known, parameters), at, coefficients))
     }
 }
 

@@ -254,10 +254,6 @@ impl System for InterpretedSystem {
         expanded.map_err(|singular| singular_row(&self.program, singular))
     }
 
-    fn has_closed_series(&self, contacts: &[ContactMode]) -> bool {
-        self.expanding_closed.lock().has(contacts)
-    }
-
     fn closed_series(
         &self,
         contacts: &[ContactMode],
@@ -265,13 +261,13 @@ impl System for InterpretedSystem {
         (q, v): (&Vec<f64>, &Vec<f64>),
         u: &Named,
         coefficients: &mut [Vec<f64>],
-    ) -> Result<(), Singular> {
+    ) -> Option<Result<(), Singular>> {
         let parameters = || self.running.lock().interpreter.parameters().to_vec();
         let at = (t, [q.as_slice(), v.as_slice(), u.values.as_slice()]);
         let mut expanding = self.expanding_closed.lock();
-        let expanded = expanding.expand(contacts, parameters, at, coefficients);
+        let expanded = expanding.expand(contacts, parameters, at, coefficients)?;
         // Which contact it is matters to nobody: the run goes on by another method.
-        expanded.map_err(|singular| {
+        Some(expanded.map_err(|singular| {
             let own = self.program.dimension() + self.program.constraints.len();
             let coordinate = singular.coordinate.min(own.saturating_sub(1));
             singular_row(
@@ -281,7 +277,7 @@ impl System for InterpretedSystem {
                     ..singular
                 },
             )
-        })
+        }))
     }
 
     fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {

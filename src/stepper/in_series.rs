@@ -23,9 +23,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         } = self;
         let Some(taylor) = taylor else { return Ok(()) };
         model.set_inputs(now.t, &now.q, &now.v);
-        taylor
-            .expand(model.in_series(), now, &model.inputs, false)
-            .map_err(|singular| StepError::Singular { singular, t: now.t })
+        taylor.expand(model.in_series(), now, &model.inputs, false)
     }
 
     /// The coefficients of the motion in the last step, of coordinates, in powers of the time since its beginning. `None` if
@@ -214,9 +212,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         } = self;
         let Some(taylor) = taylor else { return Ok(()) };
         work.evaluations += 1;
-        taylor
-            .expand(model.in_series(), now, &model.inputs, true)
-            .map_err(|singular| StepError::Singular { singular, t: now.t })
+        taylor.expand(model.in_series(), now, &model.inputs, true)
     }
 
     /// Compares the accelerations of both series at the end of a step, of which that of the step left its own in `stage`. Returns the error of the step: 0, or
@@ -302,9 +298,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return Ok(true);
         }
         work.evaluations += 1;
-        taylor
-            .expand(model.in_series(), now, &model.inputs, true)
-            .map_err(|singular| StepError::Singular { singular, t: now.t })?;
+        taylor.expand(model.in_series(), now, &model.inputs, true)?;
         Ok(false)
     }
 }
