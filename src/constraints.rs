@@ -121,6 +121,8 @@ pub(crate) struct Constraints<V> {
     choice: Choice<V>,
     /// Whether there are other rows, which depend on these.
     pub redundant: bool,
+    /// The number of all rows.
+    rows: usize,
     /// Whether the motion passes a pose in which rows become dependent.
     pub at_fork: bool,
     /// While it does, the strength of the rows at the end of the last step, and the number of steps since such a pose was in reach.
@@ -159,6 +161,7 @@ impl<V: Vector> Constraints<V> {
             scales: Scales::new(system, q, v),
             choice: Choice::none(zeros.clone()),
             redundant: false,
+            rows: system.constraints().len(),
             at_fork: false,
             strength: 0.0,
             steps_away: 0,
@@ -177,6 +180,13 @@ impl<V: Vector> Constraints<V> {
     #[cfg(feature = "std")]
     pub fn record_rate(&mut self, k: usize, rate: f64) {
         self.scales.record_rate(k, rate);
+    }
+
+    /// The rows that are not enforced, since they depend on those that are.
+    #[cfg(feature = "std")]
+    pub fn dependent(&self) -> impl Iterator<Item = usize> {
+        let rows = if self.redundant { self.rows } else { 0 };
+        (0..rows).filter(|k| !self.choice.has(*k))
     }
 
     /// Records a state that was projected onto the constraints.

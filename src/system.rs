@@ -584,13 +584,14 @@ pub trait System {
         self.series(t, q, v, u, coefficients)
     }
 
-    /// [`series`](Self::series) while unilateral contacts do this, of which at least one is closed; `None` if the motion has no series then, as by default.
+    /// [`series`](Self::series) while unilateral contacts do this, of which at least one is closed; `None` if the motion has no series then, as by default. Of the directions in
+    /// which closed contacts hold, 2k for the gap and 2k + 1 for the slip of contact k, some may be `dependent` on the others.
     #[cfg(feature = "std")]
     #[doc(hidden)]
     #[inline(always)]
     fn closed_series(
         &self,
-        _contacts: &[crate::ContactMode],
+        (_contacts, _dependent): (&[crate::ContactMode], &[usize]),
         _t: [f64; 2],
         (_q, _v): (&Self::Vector, &Self::Vector),
         _u: &Self::Inputs,

@@ -138,13 +138,14 @@ impl<V: Vector> Taylor<V> {
         self.length = None;
     }
 
-    /// Expands the motion through a state: the start, or with `ahead` the end of the step that is being tried. The contacts are given if one of them is closed.
+    /// Expands the motion through a state: the start, or with `ahead` the end of the step that is being tried. The contacts are given if one of them is closed, with
+    /// [the directions that depend on others](System::closed_series).
     ///
     /// # Errors
     /// If the motion has no series, or its equations are singular at this state.
     pub fn expand<S: System<Vector = V>>(
         &mut self,
-        (system, closed): (&S, Option<&[ContactMode]>),
+        (system, closed): (&S, Option<(&[ContactMode], Vec<usize>)>),
         at: &Point<V>,
         u: &S::Inputs,
         ahead: bool,
@@ -159,8 +160,8 @@ impl<V: Vector> Taylor<V> {
         let (state, memory) = ((&at.q, &at.v), &mut self.memory);
         let coefficients = &mut self.coefficients[which];
         let expanded = match closed {
-            Some(contacts) if S::MAY_COLLIDE => {
-                system.closed_series(contacts, t, state, u, coefficients)
+            Some((contacts, dependent)) if S::MAY_COLLIDE => {
+                system.closed_series((contacts, &dependent), t, state, u, coefficients)
             }
             _ => Some(system.series_with(memory, t, state, u, coefficients)),
         };

@@ -454,6 +454,11 @@ impl UnilateralState {
         &self.held
     }
 
+    /// The direction that this one of the constraints is now, if there are so many.
+    pub fn held_by(&self, constraint: usize) -> Option<usize> {
+        self.held.get(constraint).copied()
+    }
+
     /// For each direction that is a constraint now the greatest rate of a contact so far, and 0 for rates in other units: what resists rolling.
     pub fn rates_of_held(&self) -> impl Iterator<Item = f64> {
         let rate = self.greatest_rate();

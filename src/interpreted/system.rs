@@ -256,7 +256,7 @@ impl System for InterpretedSystem {
 
     fn closed_series(
         &self,
-        contacts: &[ContactMode],
+        contacts: (&[ContactMode], &[usize]),
         t: [f64; 2],
         (q, v): (&Vec<f64>, &Vec<f64>),
         u: &Named,

@@ -1,6 +1,7 @@
 //! Changes the method of a run to another one with variable steps, and provides the data for that decision.
 
 use super::{Stepper, Stiffness};
+use crate::at::At;
 use crate::balance::Quadratures;
 use crate::control::shortest_step;
 use crate::implicit::Implicit;
@@ -39,15 +40,27 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             control,
             ..
         } = self;
-        if model.touching.is_none() {
-            return false;
-        }
-        // Dependent rows have no series, and where they are nearly so it is not accurate.
-        let constraints = model.constraints.as_ref();
-        if constraints.is_some_and(|constraints| constraints.redundant || constraints.at_fork) {
-            return false;
-        }
         model.set_inputs(now.t, &now.q, &now.v);
+        let (Some(touching), Some(constraints)) = (&model.touching, &model.constraints) else {
+            return false;
+        };
+        // Where rows are nearly dependent, a series is not accurate.
+        if constraints.at_fork {
+            return false;
+        }
+        let at = At {
+            t: now.t,
+            q: &now.q,
+            v: &now.v,
+            u: &model.inputs,
+        };
+        let system = model.system.get();
+        let own = system.constraints().len();
+        if constraints.dependent().any(|row| row < own)
+            || constraints.redundant && !touching.friction_is_known(system, at)
+        {
+            return false;
+        }
         let mut taylor = Taylor::new(&self.tolerance);
         let expanded = taylor.expand(model.in_series(), now, &model.inputs, false);
         let has_series = !matches!(expanded, Err(StepError::NoSeries { .. }));

@@ -10,6 +10,8 @@
 //! sticks    d²g/dt² = 0          dγₜ/dt = 0
 //! ```
 //!
+//! Where contacts that stick share their load in several ways, some of these conditions follow from the others. The motion is that with any independent ones, and without the forces of the rest.
+//!
 //! A slip makes the matrix of the unknowns unsymmetric.
 
 use lagrangian_symbolic::Rational;
@@ -25,6 +27,10 @@ pub enum ContactState {
     Slips(i8),
     /// It is closed, and does not slip.
     Sticks,
+    /// The same, where its slip vanishes if those of other contacts do: without a force along its tangent.
+    SticksAlongNormal,
+    /// The same, where its gap stays closed if those of other contacts do: without a force along its normal.
+    SticksAlongTangent,
 }
 
 /// The unknowns of a contact among those of a [`ContactSeries`].
@@ -83,9 +89,14 @@ impl ContactSeries {
                 continue;
             }
             let contact = contact.as_ref()?;
-            is_kept[contact.normal as usize] = true;
+            // The force along the normal of what is carried is that of what carries it.
+            if *state != ContactState::SticksAlongTangent && !contact.is_carried {
+                is_kept[contact.normal as usize] = true;
+            }
             match (*state, contact.tangent) {
-                (ContactState::Sticks, Some((tangent, _))) => is_kept[tangent as usize] = true,
+                (ContactState::Sticks | ContactState::SticksAlongTangent, Some((tangent, _))) => {
+                    is_kept[tangent as usize] = true;
+                }
                 (ContactState::Slips(0), Some(_)) => return None,
                 (ContactState::Slips(sign), Some((tangent, friction))) => {
                     is_symmetric = false;
