@@ -55,6 +55,9 @@ pub(crate) fn rows(tolerance: f64) -> usize {
     ORDERS[usize::from(tolerance <= FINE)] + 2
 }
 
+/// What contacts do of which at least one is closed, and the [directions](System::closed_series) in which they hold only because others do.
+pub(crate) type ClosedContacts<'c> = (&'c [ContactMode], Vec<usize>);
+
 /// The coefficients of the motion through the beginning of the last step and through its end.
 #[derive(Clone, Debug)]
 pub(crate) struct Taylor<V> {
@@ -145,7 +148,7 @@ impl<V: Vector> Taylor<V> {
     /// If the motion has no series, or its equations are singular at this state.
     pub fn expand<S: System<Vector = V>>(
         &mut self,
-        (system, closed): (&S, Option<(&[ContactMode], Vec<usize>)>),
+        (system, closed): (&S, Option<ClosedContacts<'_>>),
         at: &Point<V>,
         u: &S::Inputs,
         ahead: bool,

@@ -9,10 +9,10 @@ use crate::control::{Control, shortest_step};
 use crate::math::larger;
 use crate::stages::Point;
 use crate::taylor::{
-    GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect, size_of_rate,
+    ClosedContacts, GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect,
+    size_of_rate,
 };
-use crate::{ContactMode, InputLaw, StepError, System, Vector};
-use std::vec::Vec;
+use crate::{InputLaw, StepError, System, Vector};
 
 /// A step by series of a machine with unilateral contacts is at most so many times as long as the one before it.
 pub(super) const GROWTH_IN_FLIGHT: f64 = 2.0;
@@ -354,7 +354,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     }
 
     /// The machine, with what its contacts do if one of them is closed, and the directions along which they are held only because others are.
-    pub(super) fn in_series(&self) -> (&S, Option<(&[ContactMode], Vec<usize>)>) {
+    pub(super) fn in_series(&self) -> (&S, Option<ClosedContacts<'_>>) {
         let system = self.system.get();
         let closed = self.closed().map(|touching| {
             let dependent = self.constraints.as_ref().map(Constraints::dependent);
