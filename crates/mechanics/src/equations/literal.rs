@@ -314,7 +314,8 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let mut constraints = dynamics.constraints;
         for rolling in model.rolling() {
             let circle = &model.circles[rolling.circles.circle];
-            let [gap, slip] = on_surface(model, circle, rolling.circles.surface, &x);
+            let surface = rolling.circles.surface;
+            let [gap, slip] = on_surface(model, circle, surface, false, &x);
             constraints.extend([of_position(gap), of_rate(slip.value)]);
         }
         Literal {
