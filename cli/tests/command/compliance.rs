@@ -347,7 +347,10 @@ fn friction_of_what_yields_keeps_the_angular_momentum() {
         let run = simulate(spec.path(), 0.5, &[]);
         is_good(&run);
         assert!(!events(&run, "opens").is_empty());
-        assert!(number(&run["unilateral_contacts"][0]["friction_loss"]) > 0.01, "{run:#}");
+        assert!(
+            number(&run["unilateral_contacts"][0]["friction_loss"]) > 0.01,
+            "{run:#}"
+        );
         run
     };
     let last = |run: &Value| {
