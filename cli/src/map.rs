@@ -196,9 +196,9 @@ fn table(path: &Path) -> Result<Vec<Vec<String>>, Failure> {
     // Some programs write this mark before the first name.
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let header = text.lines().next().unwrap_or_default();
-    let other = [('\t', "tabs"), (';', "semicolons")].into_iter();
-    let other = other.filter(|(letter, _)| !header.contains(',') && header.contains(*letter));
-    if let Some((_, separators)) = other.last() {
+    let mut others = [(';', "semicolons"), ('\t', "tabs")].into_iter();
+    let other = others.find(|(letter, _)| !header.contains(',') && header.contains(*letter));
+    if let Some((_, separators)) = other {
         return Err(wrong(format!(
             "the columns of a sweep are separated by commas, not by {separators}"
         )));
