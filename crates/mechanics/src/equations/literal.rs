@@ -714,6 +714,23 @@ fn carried<R: Scalar, const N: usize>(
     }
 }
 
+/// How far along the line of centres the touching points are from the centre of the first circle or sphere and from that of the other.
+fn touching_point<R: Scalar>(
+    [small, large]: [Varied<R>; 2],
+    distance: Varied<R>,
+    (is_inside, yields): (bool, bool),
+) -> [Varied<R>; 2] {
+    match (is_inside, yields) {
+        (true, false) => [small, large],
+        (true, true) => [small, distance + small],
+        (false, false) => [-small, large],
+        (false, true) => {
+            let past = distance * large / (small + large);
+            [past - distance, past]
+        }
+    }
+}
+
 /// The centre of a circle, and the angular velocity of what it is fixed to.
 fn centre_and_angular_velocity<R: Scalar>(
     model: &Model<'_>,

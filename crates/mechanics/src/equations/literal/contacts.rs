@@ -7,7 +7,7 @@ use super::vector::{difference, dot, ground, quotient, scaled};
 use super::{
     Lagrange, LiteralSliding, LiteralUnilateral, Moving, SmoothContact, State, Varied, carried,
     centre_and_angular_velocity, here, of_position, of_rate, point_and_angular_velocity,
-    turned_left,
+    touching_point, turned_left,
 };
 use super::{in_space, vector};
 use lagrangian_scalar::{Dual, Scalar};
@@ -447,23 +447,6 @@ fn on_circle<R: Scalar>(
     let rate = dot(turned_left(e), vector::rate(line));
     let slip = rate + arm * omega - past * other_omega;
     [gap, Dual::constant(slip)]
-}
-
-/// How far along the line of centres the touching points are from the centre of the first circle or sphere and from that of the other.
-pub(super) fn touching_point<R: Scalar>(
-    [small, large]: [Varied<R>; 2],
-    distance: Varied<R>,
-    (is_inside, yields): (bool, bool),
-) -> [Varied<R>; 2] {
-    match (is_inside, yields) {
-        (true, false) => [small, large],
-        (true, true) => [small, distance + small],
-        (false, false) => [-small, large],
-        (false, true) => {
-            let past = distance * large / (small + large);
-            [past - distance, past]
-        }
-    }
 }
 
 /// Gap and slip of a circle on the first axis of a frame, on the side of the second axis.

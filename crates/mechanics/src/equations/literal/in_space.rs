@@ -11,9 +11,8 @@
 use lagrangian_scalar::Scalar;
 use lagrangian_spec::model::{Circle, FrameOrBody, Model, PoseId, Rotation, Surface};
 
-use super::contacts::touching_point;
 use super::vector::{difference, dot, ground, point, quotient, rate, scaled, value};
-use super::{Moving, Values, Varied};
+use super::{Moving, Values, Varied, touching_point};
 
 type Point<R> = [Moving<R>; 3];
 
