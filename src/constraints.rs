@@ -45,7 +45,7 @@ pub(crate) const RESIDUAL: f64 = 1e-13;
 /// Residuals above this are reduced, so that rows that depend on several others satisfy the bound as well.
 const REDUCTION_THRESHOLD: f64 = 0.25 * RESIDUAL;
 
-/// The same if rows are dependent, or nearly so: the chosen rows change along the motion, and the residuals of the other rows must be as
+/// The threshold if rows are dependent, or nearly so: the chosen rows change along the motion, and the residuals of the other rows must be as
 /// small. Newton's method continues until rounding stops it.
 const REDUCTION_THRESHOLD_REDUNDANT: f64 = 4.0 * f64::EPSILON;
 
@@ -121,6 +121,9 @@ pub(crate) struct Constraints<V> {
     choice: Choice<V>,
     /// Whether there are other rows, which depend on these.
     pub redundant: bool,
+    /// The number of all rows.
+    #[cfg(feature = "std")]
+    rows: usize,
     /// Whether the motion passes a pose in which rows become dependent.
     pub at_fork: bool,
     /// While it does, the strength of the rows at the end of the last step, and the number of steps since such a pose was in reach.
@@ -159,6 +162,8 @@ impl<V: Vector> Constraints<V> {
             scales: Scales::new(system, q, v),
             choice: Choice::none(zeros.clone()),
             redundant: false,
+            #[cfg(feature = "std")]
+            rows: system.constraints().len(),
             at_fork: false,
             strength: 0.0,
             steps_away: 0,
@@ -177,6 +182,13 @@ impl<V: Vector> Constraints<V> {
     #[cfg(feature = "std")]
     pub fn record_rate(&mut self, k: usize, rate: f64) {
         self.scales.record_rate(k, rate);
+    }
+
+    /// The rows that are not enforced, since they depend on those that are.
+    #[cfg(feature = "std")]
+    pub fn dependent(&self) -> impl Iterator<Item = usize> {
+        let rows = if self.redundant { self.rows } else { 0 };
+        (0..rows).filter(|k| !self.choice.has(*k))
     }
 
     /// Records a state that was projected onto the constraints.
@@ -584,7 +596,7 @@ impl<V: Vector> Constraints<V> {
         self.factor(system, workspace, at, level)
     }
 
-    /// The same if the workspace holds the constraint matrix at this pose.
+    /// Factorizes them at a pose whose constraint matrix is in the workspace already.
     fn factor<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -727,7 +739,7 @@ fn prepare<S: System>(
     factor(system, workspace, (t, q), (choice, fixed))
 }
 
-/// The same if the workspace holds the constraint matrix at this pose.
+/// Factorizes them at a pose whose constraint matrix is in the workspace already.
 fn factor<S: System>(
     system: &S,
     workspace: &mut Workspace<'_, S::Matrix>,

@@ -4,7 +4,7 @@
 ///
 /// The wrapper defines how to reach the wrapped system and its vectors: `wrapped(&self)` returns the system;
 /// `own(&self, vector)` returns one of its vectors, by value or by reference; `put` and `put_matrix` let a function write
-/// one, `(&self, to, |own| …)`. Names of coordinates, assumptions, constraints and contacts are forwarded by wrappers whose
+/// one, `(&self, to, |own| …)`. `observed` are all quantities that only observe a state, with exception of those of accelerations. Names of coordinates, assumptions, constraints and contacts are forwarded by wrappers whose
 /// vectors are those of the wrapped system.
 macro_rules! forward {
     ($($method:ident),+ $(,)?) => { $(crate::forward::forward!(@ $method);)+ };
@@ -42,68 +42,81 @@ macro_rules! forward {
             self.wrapped().equations()
         }
     };
-    (@ mass_matrix) => {
-        fn mass_matrix(&self, t: f64, q: &Self::Vector, matrix: &mut Self::Matrix) {
-            let q = self.own(q);
-            self.put_matrix(matrix, |own| self.wrapped().mass_matrix(t, &q, own));
+    // <quantities: forwarded>
+    (@ mass_matrix) => { crate::forward::forward!(@ matrix mass_matrix t q); };
+    (@ bias) => { crate::forward::forward!(@ vector bias t q v); };
+    (@ applied) => { crate::forward::forward!(@ vector applied t q v u); };
+    (@ forces) => { crate::forward::forward!(@ vector forces t q v u); };
+    (@ constraint_positions) => { crate::forward::forward!(@ numbers constraint_positions t q); };
+    (@ constraint_rates) => { crate::forward::forward!(@ numbers constraint_rates t q v); };
+    (@ constraint_matrix) => { crate::forward::forward!(@ numbers constraint_matrix t q); };
+    (@ constraint_bias) => { crate::forward::forward!(@ numbers constraint_bias t q v); };
+    (@ slips) => { crate::forward::forward!(@ numbers slips t q v); };
+    (@ slip_matrix) => { crate::forward::forward!(@ numbers slip_matrix t q); };
+    (@ slip_bias) => { crate::forward::forward!(@ numbers slip_bias t q v); };
+    (@ gaps) => { crate::forward::forward!(@ numbers gaps t q); };
+    (@ contact_rates) => { crate::forward::forward!(@ numbers contact_rates t q v); };
+    (@ contact_matrix) => { crate::forward::forward!(@ numbers contact_matrix t q); };
+    (@ contact_bias) => { crate::forward::forward!(@ numbers contact_bias t q v); };
+    (@ contact_coefficients) => { crate::forward::forward!(@ numbers contact_coefficients t q v); };
+    (@ contact_faces) => { crate::forward::forward!(@ numbers contact_faces t q v); };
+    (@ guide_matrix) => { crate::forward::forward!(@ numbers guide_matrix t q); };
+    (@ guide_loads) => { crate::forward::forward!(@ numbers guide_loads t q v u); };
+    (@ kinetic_energy) => { crate::forward::forward!(@ number kinetic_energy t q v); };
+    (@ potential_energy) => { crate::forward::forward!(@ number potential_energy t q u); };
+    (@ state_energy) => { crate::forward::forward!(@ number state_energy t q v); };
+    (@ dissipation) => { crate::forward::forward!(@ number dissipation t q v u); };
+    (@ work_rate) => { crate::forward::forward!(@ number work_rate t q v a u); };
+    (@ dissipation_rate) => { crate::forward::forward!(@ number dissipation_rate t q v u); };
+    (@ observed) => {
+        crate::forward::forward!(@ kinetic_energy);
+        crate::forward::forward!(@ potential_energy);
+        crate::forward::forward!(@ state_energy);
+        crate::forward::forward!(@ dissipation);
+        crate::forward::forward!(@ dissipation_rate);
+    };
+    // </quantities>
+
+    // Quantities, by the kind of their numbers and the letters of their arguments.
+    (@ number $method:ident $($x:ident)*) => {
+        fn $method(&self, $($x: crate::forward::forward!(@ type $x)),*) -> f64 {
+            self.wrapped().$method($(crate::forward::forward!(@ given self $x $x)),*)
         }
     };
-    (@ bias) => {
-        fn bias(&self, t: f64, q: &Self::Vector, v: &Self::Vector, bias: &mut Self::Vector) {
-            let (q, v) = (self.own(q), self.own(v));
-            self.put(bias, |own| self.wrapped().bias(t, &q, &v, own));
-        }
-    };
-    (@ applied) => { crate::forward::forward!(@ of_inputs applied); };
-    (@ forces) => { crate::forward::forward!(@ of_inputs forces); };
-    (@ of_inputs $method:ident) => {
+    (@ vector $method:ident $($x:ident)*) => {
         fn $method(
             &self,
-            t: f64,
-            q: &Self::Vector,
-            v: &Self::Vector,
-            u: &Self::Inputs,
-            forces: &mut Self::Vector,
+            $($x: crate::forward::forward!(@ type $x),)*
+            to: &mut Self::Vector,
         ) {
-            let (q, v) = (self.own(q), self.own(v));
-            self.put(forces, |own| self.wrapped().$method(t, &q, &v, u, own));
+            self.put(to, |own| {
+                self.wrapped().$method($(crate::forward::forward!(@ given self $x $x),)* own);
+            });
         }
     };
-    (@ kinetic_energy) => {
-        fn kinetic_energy(&self, t: f64, q: &Self::Vector, v: &Self::Vector) -> f64 {
-            self.wrapped().kinetic_energy(t, &self.own(q), &self.own(v))
-        }
-    };
-    (@ state_energy) => {
-        fn state_energy(&self, t: f64, q: &Self::Vector, v: &Self::Vector) -> f64 {
-            self.wrapped().state_energy(t, &self.own(q), &self.own(v))
-        }
-    };
-    (@ potential_energy) => {
-        fn potential_energy(&self, t: f64, q: &Self::Vector, u: &Self::Inputs) -> f64 {
-            self.wrapped().potential_energy(t, &self.own(q), u)
-        }
-    };
-    (@ dissipation) => { crate::forward::forward!(@ power dissipation); };
-    (@ dissipation_rate) => { crate::forward::forward!(@ power dissipation_rate); };
-    (@ power $method:ident) => {
-        fn $method(&self, t: f64, q: &Self::Vector, v: &Self::Vector, u: &Self::Inputs) -> f64 {
-            self.wrapped().$method(t, &self.own(q), &self.own(v), u)
-        }
-    };
-    (@ work_rate) => {
-        fn work_rate(
+    (@ matrix $method:ident $($x:ident)*) => {
+        fn $method(
             &self,
-            t: f64,
-            q: &Self::Vector,
-            v: &Self::Vector,
-            a: &Self::Vector,
-            u: &Self::Inputs,
-        ) -> f64 {
-            self.wrapped()
-                .work_rate(t, &self.own(q), &self.own(v), &self.own(a), u)
+            $($x: crate::forward::forward!(@ type $x),)*
+            to: &mut Self::Matrix,
+        ) {
+            self.put_matrix(to, |own| {
+                self.wrapped().$method($(crate::forward::forward!(@ given self $x $x),)* own);
+            });
         }
     };
+    (@ numbers $method:ident $($x:ident)*) => {
+        fn $method(&self, $($x: crate::forward::forward!(@ type $x),)* to: &mut [f64]) {
+            self.wrapped().$method($(crate::forward::forward!(@ given self $x $x),)* to);
+        }
+    };
+    (@ type t) => { f64 };
+    (@ type u) => { &Self::Inputs };
+    (@ type $x:ident) => { &Self::Vector };
+    (@ given $wrapper:ident t $x:ident) => { $x };
+    (@ given $wrapper:ident u $x:ident) => { $x };
+    (@ given $wrapper:ident $letter:ident $x:ident) => { &$wrapper.own($x) };
+
     (@ default_inputs) => {
         fn default_inputs(&self) -> Self::Inputs {
             self.wrapped().default_inputs()
@@ -161,25 +174,6 @@ macro_rules! forward {
             self.wrapped().unilateral_contacts()
         }
     };
-    (@ constraint_positions) => { crate::forward::forward!(@ of_place constraint_positions); };
-    (@ constraint_matrix) => { crate::forward::forward!(@ of_place constraint_matrix); };
-    (@ gaps) => { crate::forward::forward!(@ of_place gaps); };
-    (@ of_place $method:ident) => {
-        fn $method(&self, t: f64, q: &Self::Vector, to: &mut [f64]) {
-            self.wrapped().$method(t, q, to);
-        }
-    };
-    (@ constraint_rates) => { crate::forward::forward!(@ of_state constraint_rates); };
-    (@ constraint_bias) => { crate::forward::forward!(@ of_state constraint_bias); };
-    (@ contact_rates) => { crate::forward::forward!(@ of_state contact_rates); };
-    (@ contact_faces) => { crate::forward::forward!(@ of_state contact_faces); };
-    (@ contact_bias) => { crate::forward::forward!(@ of_state contact_bias); };
-    (@ contact_coefficients) => { crate::forward::forward!(@ of_state contact_coefficients); };
-    (@ of_state $method:ident) => {
-        fn $method(&self, t: f64, q: &Self::Vector, v: &Self::Vector, to: &mut [f64]) {
-            self.wrapped().$method(t, q, v, to);
-        }
-    };
     (@ single_contacts) => {
         fn single_contacts(&self) -> Option<&[bool]> {
             self.wrapped().single_contacts()
@@ -199,7 +193,6 @@ macro_rules! forward {
             self.wrapped().least_gaps(t, q, least);
         }
     };
-    (@ contact_matrix) => { crate::forward::forward!(@ of_place contact_matrix); };
     (@ kept_at_start) => {
         fn kept_at_start(&self) -> impl ExactSizeIterator<Item = &str> {
             self.wrapped().kept_at_start()

@@ -14,7 +14,7 @@ use lagrangian_mechanics::Proved;
 use lagrangian_mechanics::series::{ProvedContactSeries, ProvedSeries};
 use lagrangian_program::contact_parts::ContactParts;
 use lagrangian_program::series::NoSeries;
-use lagrangian_program::{Interpreter, Program, Slot};
+use lagrangian_program::{Interpreter, Program, Role, Slot};
 
 mod closed_series;
 mod contact_parts;
@@ -73,6 +73,8 @@ pub struct InterpretedMachine {
     /// The numbers of single contacts, where there are many, and their machine code.
     contact_parts: Option<Arc<ContactParts>>,
     gap_arguments: Option<Arc<[bool]>>,
+    /// The quantities of one number that are 0 at every state.
+    zeros: Arc<[Role]>,
     code_of_parts: engine::MachineCode,
 }
 
@@ -106,6 +108,7 @@ impl InterpretedMachine {
                 .as_ref()
                 .map(|parts| parts.gap_arguments().into()),
             contact_parts: contact_parts.map(Arc::new),
+            zeros: system::zeros(&program),
             program: Arc::new(program),
             machine_code: engine::MachineCode::default(),
             code_of_parts: engine::MachineCode::default(),

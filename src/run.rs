@@ -299,7 +299,8 @@ fn activity<S: System>(system: &S, settings: &Settings) -> ContactActivity {
     );
     let contacts = system.unilateral_contacts();
     ContactActivity::new(
-        settings.hands_over && may_hand_over && system.guides() == 0,
+        settings.hands_over && may_hand_over,
+        system.guides(),
         contacts.map(|contact| contact.is_second_tangent).collect(),
     )
 }

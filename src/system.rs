@@ -106,19 +106,20 @@ pub trait System {
         self.coordinates().len()
     }
 
-    /// Mass matrix `M(q, t)`, row after row. By default unknown: NaN.
+    // <quantities: forces>
+    /// Mass matrix `M`. It is written in full, row after row. By default unknown: NaN.
     ///
     /// Needed for constraints, for contacts and wherever the equations are used without being solved.
     fn mass_matrix(&self, _t: f64, _q: &Self::Vector, matrix: &mut Self::Matrix) {
         matrix.as_mut_slice().fill(f64::NAN);
     }
 
-    /// Bias `h(q, v, t)`: every velocity product and explicit-time term of the inertia forces. By default unknown: NaN.
+    /// Bias `h`: velocity products and explicit time in the inertia forces. By default unknown: NaN.
     fn bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, bias: &mut Self::Vector) {
         bias.as_mut_slice().fill(f64::NAN);
     }
 
-    /// Applied generalized forces `Q(q, v, t, u) = −∂V/∂q − ∂D/∂v + …`. By default unknown: NaN.
+    /// Applied generalized forces `Q`. They are `−∂V/∂q − ∂D/∂v + …`. By default unknown: NaN.
     fn applied(
         &self,
         _t: f64,
@@ -129,6 +130,7 @@ pub trait System {
     ) {
         applied.as_mut_slice().fill(f64::NAN);
     }
+    // </quantities>
 
     /// The right-hand side `f = Q − h` of `M a = f`. By default the difference of [`applied`](Self::applied) and
     /// [`bias`](Self::bias).
@@ -148,6 +150,7 @@ pub trait System {
         }
     }
 
+    // <quantities: observed>
     /// Kinetic energy `T`, in J. By default unknown, NaN, and then a run has no energy balance.
     fn kinetic_energy(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector) -> f64 {
         f64::NAN
@@ -158,19 +161,20 @@ pub trait System {
         f64::NAN
     }
 
-    /// Energy `E` stored in first-order states, in J, as far as the description states it. By default 0.
+    /// Energy `E` that states of first order store, in J. It is known as far as the description states it; by default it is 0.
     fn state_energy(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector) -> f64 {
         0.0
     }
 
-    /// Rayleigh's dissipation function `D`, in W. By default 0: nothing is damped.
+    /// Dissipation function `D`, in W. It is that of Rayleigh. By default 0: nothing is damped.
     fn dissipation(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _u: &Self::Inputs) -> f64 {
         0.0
     }
 
-    /// Power, in W, of everything that is neither in `T + V` nor in `D`: drives (explicit time), applied forces, inputs, moving constraints
-    /// (`−λ·∂g/∂t`, with the multipliers that belong to these accelerations), and the supply of first-order states that store energy. Along
-    /// every motion `d(T + V + E)/dt = work_rate − dissipation_rate`. By default 0; if that is wrong, the energy balance shows it.
+    /// Power `P` supplied by drives, forces and inputs, in W. It is the power of everything that is neither in `T + V` nor in `D`: drives
+    /// (explicit time), applied forces, inputs, moving constraints (`−λ·∂g/∂t`, with the multipliers that belong to these accelerations),
+    /// and the supply of first-order states that store energy. Along every motion `d(T + V + E)/dt = work_rate − dissipation_rate`. By
+    /// default 0; if that is wrong, the energy balance shows it.
     fn work_rate(
         &self,
         _t: f64,
@@ -182,7 +186,7 @@ pub trait System {
         0.0
     }
 
-    /// Power lost in the dampers, `Σ vᵢ ∂D/∂vᵢ`, and in losses that the description names, in W. By default 0.
+    /// Power `R` dissipated by dampers, in W. It is `Σ vᵢ ∂D/∂vᵢ`, and the losses that the description names. By default 0.
     fn dissipation_rate(
         &self,
         _t: f64,
@@ -192,6 +196,7 @@ pub trait System {
     ) -> f64 {
         0.0
     }
+    // </quantities>
 
     /// Whether [`work_rate`](Self::work_rate) or [`dissipation_rate`](Self::dissipation_rate) may differ from 0 at any state. By default `true`; where
     /// it is `false`, a step need not be followed for the energy balance.
@@ -291,30 +296,25 @@ pub trait System {
         core::iter::empty()
     }
 
-    /// Residuals of the constraints of positions, `gₖ(q, t)`, one for each constraint; 0 for a constraint on rates alone. All are 0 if the
+    // <quantities: constraints>
+    /// Residuals `g` of the constraints of positions; 0 for those of velocities alone. There is one for each constraint, and all are 0 if
+    /// the state satisfies the constraints.
+    #[inline(always)]
+    fn constraint_positions(&self, _t: f64, _q: &Self::Vector, _positions: &mut [f64]) {}
+
+    /// Residuals `φ = G v + ∂g/∂t` of the constraints at the level of velocities. There is one for each constraint, and all are 0 if the
     /// state satisfies the constraints.
     #[inline(always)]
-    fn constraint_positions(&self, _t: f64, _q: &Self::Vector, _residuals: &mut [f64]) {}
+    fn constraint_rates(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _rates: &mut [f64]) {}
 
-    /// Residuals of the constraints at velocity level, `φₖ = Gₖ v + ∂gₖ/∂t`, one
-    /// for each constraint. All are 0 if the state satisfies the constraints.
-    #[inline(always)]
-    fn constraint_rates(
-        &self,
-        _t: f64,
-        _q: &Self::Vector,
-        _v: &Self::Vector,
-        _residuals: &mut [f64],
-    ) {
-    }
-
-    /// The constraint matrix `G(q, t) = ∂(rates)/∂v`, row after row.
+    /// Constraint matrix `G`, the derivatives of `φ` by the rates. It is written row after row.
     #[inline(always)]
     fn constraint_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
 
-    /// `γ(q, v, t)` of `G a = γ`, the condition on the accelerations under which the rates of the constraints stay constant.
+    /// Right-hand side `γ` of `G a = γ`. It is the condition on the accelerations under which the rates of the constraints stay constant.
     #[inline(always)]
-    fn constraint_bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
+    fn constraint_bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _bias: &mut [f64]) {}
+    // </quantities>
 
     /// Lagrange's multipliers `λ` of `M a = f + Gᵀ λ`, by the same elimination
     /// as the accelerations. An error if the constraints are linearly dependent.
@@ -372,9 +372,19 @@ pub trait System {
         0
     }
 
-    /// The slip rate of each contact along its direction, `w(q, v, t)`, in m/s.
+    // <quantities: guided contacts>
+    /// Slips `w` of the guided contacts, in m/s. There is one for each contact, along its direction.
     #[inline(always)]
     fn slips(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _slips: &mut [f64]) {}
+
+    /// Slip matrix `τ`, the derivatives of the slips by the rates. It is written row after row.
+    #[inline(always)]
+    fn slip_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
+
+    /// Rates `dw/dt` of the slips where all accelerations are 0.
+    #[inline(always)]
+    fn slip_bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _bias: &mut [f64]) {}
+    // </quantities>
 
     /// Lower and upper bound of each slip, in m/s, given the rounding of the state, of the parameters and of the evaluation of the slips: a
     /// contact whose slip may be 0 sticks to within round-off. Bounds that are not finite carry no information.
@@ -388,14 +398,6 @@ pub trait System {
             *range = [*slip; 2];
         }
     }
-
-    /// The matrix `τ(q, t) = ∂w/∂v` of the slips, row after row.
-    #[inline(always)]
-    fn slip_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
-
-    /// `dw/dt` at `a = 0`, for each contact.
-    #[inline(always)]
-    fn slip_bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
     /// The response to the friction forces `F` of the `k` contacts, which is affine: first the part without friction, then the increment
     /// per unit of each force. Each of these `1 + k` parts holds the accelerations, the multipliers of the constraints, `dw/dt` of each
@@ -426,43 +428,38 @@ pub trait System {
         core::iter::empty()
     }
 
-    /// The gaps `g(q, t)` of the unilateral contacts, in m: positive where they are open.
+    // <quantities: unilateral contacts>
+    /// Gaps `g` of the unilateral contacts, in m: positive where they are open.
     ///
-    /// By default this, and each quantity of all contacts that follows, is that of [`of_contacts`](Self::of_contacts), one contact after the other, if
-    /// [`single_contacts`](Self::single_contacts) are known.
+    /// By default this, and each quantity of all contacts that follows, is that of [`of_contacts`](Self::of_contacts), one contact after
+    /// the other, if [`single_contacts`](Self::single_contacts) are known.
     #[inline(always)]
     fn gaps(&self, t: f64, q: &Self::Vector, gaps: &mut [f64]) {
         write_each(self, ContactQuantity::Gap, (t, q, q), gaps);
     }
 
-    /// Three numbers for each unilateral contact that is [with a face](UnilateralContact::has_face) of a polygon: the distance of its corner
-    /// outside of that face and the distance beyond the ends of it (negative between them), both in m, and the rate of the second, in m/s.
-    /// The [gap](Self::gaps) is the larger of the first two; [rates](Self::contact_rates) are those of the face.
-    #[inline(always)]
-    fn contact_faces(&self, t: f64, q: &Self::Vector, v: &Self::Vector, faces: &mut [f64]) {
-        write_each(self, ContactQuantity::Face, (t, q, v), faces);
-    }
-
-    /// For each unilateral contact the rate `dg/dt` at which its gap opens and its slip rate, in m/s.
+    /// Rates `γ` at which the gaps of unilateral contacts open and at which these slip, in m/s. There are two for each contact: `dg/dt`, at
+    /// which its gap opens, and its slip rate.
     #[inline(always)]
     fn contact_rates(&self, t: f64, q: &Self::Vector, v: &Self::Vector, rates: &mut [f64]) {
         write_each(self, ContactQuantity::Rates, (t, q, v), rates);
     }
 
-    /// The derivatives of these rates with respect to the rates of the coordinates, row after row.
+    /// Derivatives of the rates of unilateral contacts by the rates of the coordinates. They are written row after row, in the order of
+    /// [`contact_rates`](Self::contact_rates).
     #[inline(always)]
     fn contact_matrix(&self, t: f64, q: &Self::Vector, matrix: &mut [f64]) {
         write_each(self, ContactQuantity::Rows, (t, q, q), matrix);
     }
 
-    /// The time derivatives of these rates at `a = 0`.
+    /// Rates `dγ/dt` of unilateral contacts where all accelerations are 0.
     #[inline(always)]
-    fn contact_bias(&self, t: f64, q: &Self::Vector, v: &Self::Vector, drift: &mut [f64]) {
-        write_each(self, ContactQuantity::Bias, (t, q, v), drift);
+    fn contact_bias(&self, t: f64, q: &Self::Vector, v: &Self::Vector, bias: &mut [f64]) {
+        write_each(self, ContactQuantity::Bias, (t, q, v), bias);
     }
 
-    /// For each unilateral contact its coefficients: restitution along the normal and along the tangent, or the parameters of its
-    /// [`Compliance`](crate::Compliance); then friction in slip and in stick.
+    /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (for compliant contacts the parameters of
+    /// their force), friction, static friction. The law of a compliant contact is its [`Compliance`](crate::Compliance).
     #[inline(always)]
     fn contact_coefficients(
         &self,
@@ -473,6 +470,16 @@ pub trait System {
     ) {
         write_each(self, ContactQuantity::Coefficients, (t, q, v), coefficients);
     }
+
+    /// For each unilateral contact of a corner with a face of a polygon: the distance of the corner outside the face, and its distance
+    /// beyond the ends of the face, negative between them, both in m; the rate of the second, in m/s. There are three numbers for each
+    /// contact that is [with a face](UnilateralContact::has_face). The [gap](Self::gaps) is the larger of the first two;
+    /// [rates](Self::contact_rates) are those of the face.
+    #[inline(always)]
+    fn contact_faces(&self, t: f64, q: &Self::Vector, v: &Self::Vector, faces: &mut [f64]) {
+        write_each(self, ContactQuantity::Face, (t, q, v), faces);
+    }
+    // </quantities>
 
     /// How many of the unilateral contacts are guides: so many, behind all others. By default there are none.
     ///
@@ -490,12 +497,16 @@ pub trait System {
         0
     }
 
-    /// For each guide its `ρ`, with a number for each coordinate, its `χ`, with one for each constraint, and its `κ`, with two for each
-    /// unilateral contact, along the normal and the tangent. There, the numbers for normals of guides are 0.
+    // <quantities: guides>
+    /// What a unit of each acceleration, of each multiplier, and of a force along each direction of the unilateral contacts adds to the
+    /// normal reactions of guides beside these. For each guide its `ρ`, with a number for each coordinate, its `χ`, with one for each
+    /// constraint, and its `κ`, with two for each unilateral contact, along the normal and the tangent. There, the numbers for normals of
+    /// guides are 0. [`guides`](Self::guides) defines these letters.
     #[inline(always)]
     fn guide_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
 
-    /// For each guide its `ν`, in N.
+    /// The normal reactions of guides beside unilateral contacts where all accelerations, multipliers and forces of contacts are 0, in N.
+    /// They are the `ν` of [`guides`](Self::guides).
     #[inline(always)]
     fn guide_loads(
         &self,
@@ -506,6 +517,7 @@ pub trait System {
         _loads: &mut [f64],
     ) {
     }
+    // </quantities>
 
     /// For each coordinate, and last for the time, whether any gap depends on it; `None` if [`of_contacts`](Self::of_contacts) and
     /// [`least_gaps`](Self::least_gaps) are not implemented, as by default. If they are, a run evaluates only the contacts that are near: with
@@ -584,27 +596,20 @@ pub trait System {
         self.series(t, q, v, u, coefficients)
     }
 
-    /// Whether the machine has the series of its motion while its unilateral contacts do this, of which at least one is closed. By default it has none.
-    #[cfg(feature = "std")]
-    #[doc(hidden)]
-    #[inline(always)]
-    fn has_closed_series(&self, _contacts: &[crate::ContactMode]) -> bool {
-        false
-    }
-
-    /// [`series`](Self::series) while contacts do this. Called only if there is one.
+    /// [`series`](Self::series) while unilateral contacts do this, of which at least one is closed; `None` if the motion has no series then, as by default. Of the directions in
+    /// which closed contacts hold, 2k for the gap and 2k + 1 for the slip of contact k, some may be `dependent` on the others.
     #[cfg(feature = "std")]
     #[doc(hidden)]
     #[inline(always)]
     fn closed_series(
         &self,
-        _contacts: &[crate::ContactMode],
+        (_contacts, _dependent): (&[crate::ContactMode], &[usize]),
         _t: [f64; 2],
         (_q, _v): (&Self::Vector, &Self::Vector),
         _u: &Self::Inputs,
         _coefficients: &mut [Self::Vector],
-    ) -> Result<(), Singular> {
-        Ok(())
+    ) -> Option<Result<(), Singular>> {
+        None
     }
 
     /// Whether the series of the motion may be that of another motion beyond some instant within a step, since a root of a quantity that may vanish

@@ -17,7 +17,7 @@ use std::vec::Vec;
 use crate::series_memory::SeriesMemory;
 use crate::stages::Point;
 use crate::tolerance::Tolerance;
-use crate::{ContactMode, Singular, System, Vector};
+use crate::{ContactMode, StepError, System, Vector};
 pub(crate) use bounds::MotionBounds;
 use length::usual_ratios;
 pub(crate) use length::{
@@ -46,14 +46,18 @@ pub(crate) const SHORTEST_STEPS: f64 = 100.0;
 /// Number of coefficients of the accelerations for tolerances above [`FINE`], and for finer ones.
 const ORDERS: [usize; 2] = [12, 20];
 
-/// Below this tolerance the higher order costs less time: the cost of products of series grows with the square of the order, the
-/// rest of a step with the order itself, but at fine tolerances the gain in step length is larger.
-pub(crate) const FINE: f64 = 1e-5;
+/// From this sum of both tolerances down the higher order costs less time: the cost of products of series grows with the square of the order, the
+/// rest of a step with the order itself, but at fine tolerances the gain in step length is larger. At a sum of 2e-5 it takes 0.59 to 0.99 of the time on all
+/// machines of the bench but the six-joint arm; at 2e-4 it takes more on a third of them, and most errors are larger (`docs/benchmarks.md`).
+pub(crate) const FINE: f64 = 3e-5;
 
 /// The number of coefficients of a coordinate for the sum of the relative and the smallest absolute tolerance.
 pub(crate) fn rows(tolerance: f64) -> usize {
     ORDERS[usize::from(tolerance <= FINE)] + 2
 }
+
+/// What contacts do of which at least one is closed, and the [directions](System::closed_series) in which they hold only because others do.
+pub(crate) type ClosedContacts<'c> = (&'c [ContactMode], Vec<usize>);
 
 /// The coefficients of the motion through the beginning of the last step and through its end.
 #[derive(Clone, Debug)]
@@ -138,14 +142,18 @@ impl<V: Vector> Taylor<V> {
         self.length = None;
     }
 
-    /// Expands the motion through a state: the start, or with `ahead` the end of the step that is being tried. The contacts are given if one of them is closed.
+    /// Expands the motion through a state: the start, or with `ahead` the end of the step that is being tried. The contacts are given if one of them is closed, with
+    /// [the directions that depend on others](System::closed_series).
+    ///
+    /// # Errors
+    /// If the motion has no series, or its equations are singular at this state.
     pub fn expand<S: System<Vector = V>>(
         &mut self,
-        (system, closed): (&S, Option<&[ContactMode]>),
+        (system, closed): (&S, Option<ClosedContacts<'_>>),
         at: &Point<V>,
         u: &S::Inputs,
         ahead: bool,
-    ) -> Result<(), Singular> {
+    ) -> Result<(), StepError> {
         let which = if ahead {
             1 - self.beginning
         } else {
@@ -155,12 +163,17 @@ impl<V: Vector> Taylor<V> {
         let t = [at.t, at.t_low];
         let (state, memory) = ((&at.q, &at.v), &mut self.memory);
         let coefficients = &mut self.coefficients[which];
-        match closed {
-            Some(contacts) if S::MAY_COLLIDE => {
-                system.closed_series(contacts, t, state, u, coefficients)
+        let expanded = match closed {
+            Some((contacts, dependent)) if S::MAY_COLLIDE => {
+                system.closed_series((contacts, &dependent), t, state, u, coefficients)
             }
-            _ => system.series_with(memory, t, state, u, coefficients),
-        }
+            _ => Some(system.series_with(memory, t, state, u, coefficients)),
+        };
+        let expanded = expanded.ok_or(StepError::NoSeries {
+            inputs: false,
+            t: at.t,
+        })?;
+        expanded.map_err(|singular| StepError::Singular { singular, t: at.t })
     }
 
     /// The coefficients of the motion through the end of the step that is being tried, to be set.

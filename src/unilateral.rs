@@ -167,8 +167,6 @@ pub enum ContactTrouble {
     Unsettled,
     /// Moreau's time stepping does not support contacts that yield.
     NotStepped,
-    /// Moreau's time stepping does not support guides.
-    GuideNotStepped,
     /// A [`Stepper`](crate::Stepper) alone does not search for impacts; a [`Simulation`](crate::Simulation) does.
     NotFollowed,
 }
@@ -198,9 +196,6 @@ impl ContactTrouble {
             Self::Unsettled => "its state changes again and again at this instant",
             Self::NotStepped => {
                 "the method `moreau` supports rigid contacts, with any law, and none with `compliance`"
-            }
-            Self::GuideNotStepped => {
-                "the method `moreau` does not support guides beside contacts: methods that locate events, such as `dop853`, do"
             }
             Self::NotFollowed => "impacts are found by a `Simulation`, not by a stepper alone",
         }

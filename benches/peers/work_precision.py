@@ -56,8 +56,8 @@ def of_ours(program, name):
             yield f"lagrangian, {cells[1]}", float(cells[2]), float(cells[4]) * 1e-6, float(cells[5])
 
 
-def race(name, program, rounds, wanted):
-    """For each tool and setting the least seconds and the error."""
+def race(name, program, rounds, wanted, once):
+    """For each tool and setting the least seconds and the error. Peers whose names are in `once` take part in the first round alone."""
     run, best = Run(name), {}
 
     def note(tool, setting, seconds, error):
@@ -76,6 +76,8 @@ def race(name, program, rounds, wanted):
         for tool, setting, seconds, error in of_ours(program, name):
             note(tool, setting, seconds, error)
         for peer in peers:
+            if count and type(peer).__module__.removeprefix("runs.") in once:
+                continue
             for tool in peer.tools:
                 for setting in peer.settings(tool):
                     if (tool, setting) in slow:
@@ -138,27 +140,44 @@ def is_of_many(tool):
     return "lanes" in tool or "batch" in tool
 
 
+def ratios(theirs, ours):
+    """The cells of a row: times over ours at each error."""
+    for seconds, least in zip(theirs, ours):
+        if seconds is None:
+            yield "" if least is None else "–"
+        elif least is None:
+            yield "alone"
+        else:
+            ratio = seconds / least
+            yield f"{ratio:.2f}" if ratio < 9.995 else f"{float(f'{ratio:.3g}'):g}"
+
+
+def milliseconds(times):
+    return ["–" if seconds is None else f"{seconds * 1e3:.3g}" for seconds in times]
+
+
 def summary(results):
-    """For each run and error the time of every program's fastest single method over that of our fastest one."""
-    program = lambda tool: tool.split(",")[0]
-    print("| time over ours, at error | program | " + " | ".join(f"{error:.0e}" for error in ERRORS) + " |")
+    """For each run and error the milliseconds of our fastest single method and the time of every program's fastest one over that; then the same
+    of several trajectories at once."""
+    print("| run | time, at error | " + " | ".join(f"{error:.0e}" for error in ERRORS) + " |")
     print("| --- | --- |" + " --: |" * len(ERRORS))
     for name, tools in results.items():
-        best = {}
-        for tool, points in tools.items():
-            if not is_of_many(tool):
-                best.setdefault(program(tool), []).extend(points)
-        mine = best.pop("lagrangian", [])
-        ours = [seconds_at(mine, error) for error in ERRORS]
-        for who, points in best.items():
-            cells = []
-            for error, least in zip(ERRORS, ours):
-                theirs = seconds_at(points, error)
-                if theirs is None:
-                    cells.append("" if least is None else "–")
-                else:
-                    cells.append("alone" if least is None else f"{theirs / least:.3g}")
-            print(f"| {name} | {who} | " + " | ".join(cells) + " |")
+        for of_many in (False, True):
+            best = {}
+            for tool, points in tools.items():
+                if is_of_many(tool) == of_many:
+                    best.setdefault(tool.split(",")[0], []).extend(points)
+            ours, words = best.pop("lagrangian", []), ("ours, four lanes, ms", "batch of four")
+            if of_many and not (ours and best):
+                continue
+            times = [seconds_at(ours, error) for error in ERRORS]
+            rows = [(words[0] if of_many else "ours, ms", milliseconds(times))]
+            for program, points in best.items():
+                cells = list(ratios([seconds_at(points, error) for error in ERRORS], times))
+                if any(cell not in ("", "–") for cell in cells):
+                    rows.append((f"{program}, {words[1]}" if of_many else program, cells))
+            for k, (label, cells) in enumerate(rows):
+                print(" ".join(f"| {cell}".rstrip() for cell in ("" if k or of_many else name, label, *cells)) + " |")
     print()
 
 
@@ -229,6 +248,7 @@ def main():
     words.add_argument("--json", help="a file for all settings; if it exists, its runs are drawn and shown too")
     words.add_argument("--ours", help="a program that `cargo bench --bench time_against_error` has built")
     words.add_argument("--peers", default=",".join(PEERS))
+    words.add_argument("--once", default="", help="peers that take part in the first round alone, such as slow ones")
     words.add_argument("--methods", help="our methods, separated by semicolons: 'taylor;taylor, 4 lanes;dop853'")
     call = words.parse_args()
     program = [call.ours] if call.ours else ["cargo", "bench", "--bench", "time_against_error", "--"]
@@ -239,7 +259,7 @@ def main():
     if call.json and Path(call.json).exists():
         results = json.loads(Path(call.json).read_text())
     for name in call.only.split(",") if call.only else PROBLEMS:
-        results[name] = race(name, program, call.rounds, wanted)
+        results[name] = race(name, program, call.rounds, wanted, call.once.split(","))
         if call.json:
             Path(call.json).write_text(json.dumps(results))
     tables(results)

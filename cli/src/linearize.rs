@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, Simulation, State, System};
-use lagrangian_linear::model::{Label, Model, Observed, Request, about, along};
+use lagrangian_linear::model::{Label, LinearModel, Observed, Request, about, along};
 use lagrangian_linear::poles::{Pole, poles};
 use lagrangian_linear::spectrum::damping;
 use lagrangian_linear::zeros::zeros;
@@ -35,7 +35,7 @@ const MOST_COLUMNS: usize = 8;
 
 /// A model with its evaluation.
 struct Linearization {
-    model: Model,
+    model: LinearModel,
     poles: Vec<Pole>,
     zeros: Vec<Complex<f64>>,
 }
@@ -85,7 +85,7 @@ fn linear_model(
     call: &call::Linearize,
     machine: &InterpretedMachine,
     start: State<Named>,
-) -> Result<(Model, String), Failure> {
+) -> Result<(LinearModel, String), Failure> {
     let request = request(call, machine)?;
     if call.here {
         about_start(call, (machine, start), &request)
@@ -112,7 +112,7 @@ fn about_start(
     call: &call::Linearize,
     (machine, mut start): (&InterpretedMachine, State<Named>),
     request: &Request,
-) -> Result<(Model, String), Failure> {
+) -> Result<(LinearModel, String), Failure> {
     let search = &call.search;
     if machine.prepare().constraints().len() > 0 {
         // A run of length zero only projects its start onto the constraints.
@@ -152,7 +152,7 @@ fn about_motion(
     call: &call::Linearize,
     (machine, start): (&InterpretedMachine, State<Named>),
     request: &Request,
-) -> Result<(Model, String), Failure> {
+) -> Result<(LinearModel, String), Failure> {
     let reached = modes::find_motion(machine, start, &call.search)?;
     let model = along(machine, &reached.motion, request);
     let model = model.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), OPTIONS)))?;

@@ -193,7 +193,17 @@ fn table(path: &Path) -> Result<Vec<Vec<String>>, Failure> {
         return cells(path).map_err(|error| wrong(error.to_string()));
     }
     let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
-    csv_cells(&text).map_err(wrong)
+    // Some programs write this mark before the first name.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let header = text.lines().next().unwrap_or_default();
+    let mut others = [(';', "semicolons"), ('\t', "tabs")].into_iter();
+    let other = others.find(|(letter, _)| !header.contains(',') && header.contains(*letter));
+    if let Some((_, separators)) = other {
+        return Err(wrong(format!(
+            "the columns of a sweep are separated by commas, not by {separators}"
+        )));
+    }
+    csv_cells(text).map_err(wrong)
 }
 
 impl Rows {
@@ -211,7 +221,8 @@ impl Rows {
         let rows: Vec<Vec<String>> = all.collect();
         if let Some(row) = rows.iter().position(|row| row.len() != names.len()) {
             return Err(wrong(format!(
-                "row {row} does not have as many cells as there are columns"
+                "row {} does not have as many cells as there are columns",
+                row + 1
             )));
         }
         Ok(Rows {

@@ -65,9 +65,10 @@ pub fn begin(json: bool) {
     *lock(&REPORTER) = thread.spawn(speak).ok();
 }
 
-/// Sets the activity.
+/// Sets the activity, which is not a run towards an end: only the time that it has taken is shown.
 pub fn now(task: &'static str) {
-    lock(&WORK).task = task;
+    let mut work = lock(&WORK);
+    (work.task, work.until) = (task, None);
 }
 
 /// Sets the activity to a run until this time, in s.

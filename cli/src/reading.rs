@@ -81,6 +81,12 @@ impl Reading {
     /// If there is no such file, the call is invalid.
     pub fn open(spec: &call::Spec) -> Result<Reading, Failure> {
         let path = spec.path.to_string_lossy();
+        if spec.path.to_str().is_none() {
+            // Specs name each other in text.
+            return Err(Failure::Call(format!(
+                "cannot read {path}: the name of a spec must be UTF-8; rename the file, or link it under another name"
+            )));
+        }
         let read = Specs.read(&path, None);
         let (_, text) =
             read.map_err(|error| Failure::Call(format!("cannot read {path}: {error}")))?;

@@ -108,6 +108,7 @@ fn parquet(_: &[(String, &[f64])], _: &mut (dyn Write + Send)) -> io::Result<()>
 /// If a column is missing, a row has more cells than the header, or an entry is not a finite number: which one.
 pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
     let table = TextTable::new(text);
+    table.check_separator()?;
     let headers = table.headers.iter();
     let columns: Vec<&str> = headers.map(|header| name_and_unit(header).0).collect();
     let place = |name: &String| {
@@ -165,6 +166,18 @@ mod tests {
             .map(|line| line.split(',').nth(1).unwrap().parse().unwrap())
             .collect();
         assert_eq!(read, recording().columns[0].values);
+    }
+
+    #[test]
+    fn tabs_between_columns_are_named() {
+        for text in ["l\t1\n0.5\t2\n", "l\n0.5\n"] {
+            let found = rows(text, &["l".to_owned()]);
+            let is_one_column = !text.contains('\t');
+            assert_eq!(found.is_ok(), is_one_column, "{found:?}");
+            if let Err(message) = found {
+                assert!(message.contains("not by tabs"), "{message}");
+            }
+        }
     }
 
     #[test]

@@ -26,6 +26,19 @@ impl<'t> TextTable<'t> {
         }
     }
 
+    /// Checks that its columns are not separated by tabs, which would make one of them.
+    ///
+    /// # Errors
+    /// If they are.
+    pub fn check_separator(&self) -> Result<(), String> {
+        match self.headers.as_slice() {
+            [all] if all.contains('\t') => {
+                Err("columns are separated by commas or semicolons, not by tabs".into())
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The number and the cells of each line after the header.
     ///
     /// # Errors

@@ -352,7 +352,7 @@ fn with_marks(
     with_marks
 }
 
-/// The same group with other tokens inside.
+/// A group with the delimiters and the position of another one and with these tokens inside.
 fn regrouped(group: &Group, inside: TokenStream) -> [TokenTree; 1] {
     let mut other = Group::new(group.delimiter(), inside);
     other.set_span(group.span());

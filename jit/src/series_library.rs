@@ -16,7 +16,7 @@ pub struct SeriesLibrary {
     calls: AtomicU32,
     /// `None` inside if machine code is not available.
     code: OnceLock<Option<Arc<SeriesCode>>>,
-    /// The same for several states at once.
+    /// The code for several states at once, likewise.
     of_lanes: OnceLock<Option<Arc<SeriesCode>>>,
 }
 

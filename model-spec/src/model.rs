@@ -413,7 +413,7 @@ pub enum Rotation<'d> {
     Unspecified,
     /// By an angle from the ground, in the plane.
     Angle(Expr<'d>),
-    /// The same as a frame.
+    /// It turns with a frame.
     Frame(PoseId),
 }
 

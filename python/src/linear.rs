@@ -2,7 +2,7 @@
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine as _, Simulation, System};
-use lagrangian_linear::model::{self, Label, Model, NoModel, Observed, Request};
+use lagrangian_linear::model::{self, Label, LinearModel, NoModel, Observed, Request};
 use lagrangian_linear::motion::SteadyMotion;
 use lagrangian_linear::poles::poles;
 use lagrangian_linear::search::{MOST_STEPS, Wanted};
@@ -211,7 +211,7 @@ pub fn linear_model<'py>(
         outputs: outputs.collect::<PyResult<_>>()?,
         inputs: wanted.0,
     };
-    let model_of = |machine: &InterpretedMachine, start: Start| -> Result<Model, String> {
+    let model_of = |machine: &InterpretedMachine, start: Start| -> Result<LinearModel, String> {
         let why = |none: NoModel| none.in_words(&machine.prepare(), OPTIONS);
         match steady.clone() {
             Some(steady) => {
@@ -271,8 +271,8 @@ fn observed((kind, k): &(String, usize)) -> PyResult<Observed> {
 }
 
 /// A linear model as a dictionary.
-fn dictionary<'py>(py: Python<'py>, model: &Model) -> PyResult<Bound<'py, PyDict>> {
-    let Model {
+fn dictionary<'py>(py: Python<'py>, model: &LinearModel) -> PyResult<Bound<'py, PyDict>> {
+    let LinearModel {
         a,
         b,
         c,

@@ -57,13 +57,13 @@ pub struct Machine {
     systems: Mutex<Vec<InterpretedSystem>>,
 }
 
-/// A system on loan; it is returned when this is dropped.
-pub struct Lent<'a> {
+/// A system from those that are kept; it goes back to them when this is dropped.
+pub struct PooledSystem<'a> {
     system: Option<InterpretedSystem>,
     of: &'a Mutex<Vec<InterpretedSystem>>,
 }
 
-impl std::ops::Deref for Lent<'_> {
+impl std::ops::Deref for PooledSystem<'_> {
     type Target = InterpretedSystem;
 
     fn deref(&self) -> &InterpretedSystem {
@@ -72,7 +72,7 @@ impl std::ops::Deref for Lent<'_> {
     }
 }
 
-impl Drop for Lent<'_> {
+impl Drop for PooledSystem<'_> {
     fn drop(&mut self) {
         let mut systems = self.of.lock().unwrap_or_else(PoisonError::into_inner);
         systems.extend(self.system.take());
@@ -81,13 +81,13 @@ impl Drop for Lent<'_> {
 
 impl Machine {
     /// A system of this machine for exclusive use.
-    pub fn system(&self) -> Lent<'_> {
+    pub fn system(&self) -> PooledSystem<'_> {
         let free = self
             .systems
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .pop();
-        Lent {
+        PooledSystem {
             system: Some(free.unwrap_or_else(|| self.machine.prepare())),
             of: &self.systems,
         }

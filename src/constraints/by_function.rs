@@ -261,7 +261,7 @@ impl<V: Vector> Constraints<V> {
         Some(())
     }
 
-    /// The same of the rates.
+    /// Corrects the rates until their residuals are reduced; `None` if a correction does not reduce them to a tenth.
     #[inline(always)]
     fn correct_rates(
         &mut self,

@@ -60,7 +60,7 @@ impl<V: Vector> Constraints<V> {
         most
     }
 
-    /// The same on one level alone.
+    /// The largest residual of positions or of rates alone, by the level, and its row.
     pub(super) fn residual<S: System<Vector = V>>(
         &self,
         system: &S,

@@ -193,6 +193,16 @@ impl Guides {
         }
     }
 
+    /// The impulse of the reaction of a guide over a step of length `h` in which forces alone change the rates of coordinates by `change`, in N s; 0 of other
+    /// contacts.
+    pub fn impulse_of_forces(&self, contact: usize, change: &[f64], h: f64) -> f64 {
+        let Some(guide) = self.guide(contact) else {
+            return 0.0;
+        };
+        let n = self.coordinates;
+        h * self.loads[guide] + dot(&self.by_accelerations[guide * n..][..n], change)
+    }
+
     /// By how much forces of some contacts that change no acceleration change the reaction of a guide, in N; 0 of other contacts.
     pub fn change(&self, contact: usize, contacts: &[usize], forces: &[[f64; 2]]) -> f64 {
         let Some(guide) = self.guide(contact) else {

@@ -14,7 +14,7 @@ use std::vec::Vec;
 
 use super::kinematics::ContactKinematics;
 use super::problem::{Answer, ContactUnknowns};
-use super::routh::{self, Expansion, SingleImpact};
+use super::routh::{self, Expansion, GuidedImpact, SingleImpact};
 use super::touching::UnilateralState;
 use super::undetermined;
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Mode};
@@ -25,6 +25,18 @@ const COUPLED: f64 = 1e-12;
 
 /// A gap is known up to so many of its roundings: less than a bounce that goes on.
 const KNOWN_HEIGHT: f64 = 16.0;
+
+/// Whether impulses of the other one of two contacts change a rate or a reaction of the first, with the products of their images.
+fn acts_on((g, width): (&[f64], usize), [one, other]: [usize; 2]) -> bool {
+    let pairs = [0, 1].map(|i| {
+        [0, 1].map(|j| {
+            let (i, j) = (2 * one + i, 2 * other + j);
+            let own = (g[i * width + i] * g[j * width + j]).sqrt();
+            g[i * width + j].abs() > COUPLED * own
+        })
+    });
+    pairs.as_flattened().contains(&true)
+}
 
 /// What an impact did to a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -312,20 +324,16 @@ impl UnilateralState {
             _ => Expansion::Work,
         };
         let mut impulses = vec![[0.0; 2]; colliding.len()];
+        let mut guided = Vec::new();
         for (place, impulse) in impulses.iter_mut().enumerate() {
             let k = colliding[place];
             let entry = |i: usize, j: usize| g[(2 * place + i) * width + 2 * place + j];
-            let is_coupled = |other: usize| {
-                let pairs = [0, 1].map(|i| {
-                    [0, 1].map(|j| {
-                        let (i, j) = (2 * place + i, 2 * other + j);
-                        let own = (g[i * width + i] * g[j * width + j]).sqrt();
-                        g[i * width + j].abs() > COUPLED * own
-                    })
-                });
-                other != place && pairs.as_flattened().contains(&true)
-            };
+            let is_coupled = |other: usize| other != place && acts_on((g, width), [place, other]);
             if before[2 * place] >= -here.rate_rounding(2 * k) {
+                continue;
+            }
+            if self.has_guides() {
+                guided.push(place);
                 continue;
             }
             if (0..colliding.len()).any(is_coupled) {
@@ -340,7 +348,64 @@ impl UnilateralState {
             *impulse = routh::impulse(single_impact, expansion)
                 .ok_or_else(|| trouble(place, ContactTrouble::Paradox))?;
         }
+        for place in guided {
+            let places = self.guides_loaded((here, place), (colliding, g), |trouble_at| {
+                trouble(trouble_at, ContactTrouble::SeveralAtOnce)
+            })?;
+            let directions = || places.iter().flat_map(|place| [2 * place, 2 * place + 1]);
+            let g: Vec<f64> = directions()
+                .flat_map(|i| directions().map(move |j| g[i * width + j]))
+                .collect();
+            let k = colliding[place];
+            let guided_impact = GuidedImpact {
+                g: &g,
+                rates: directions().map(|direction| before[direction]).collect(),
+                restitution: here.restitution(k)[0],
+                friction: (places.iter())
+                    .map(|place| here.friction(colliding[*place]))
+                    .collect(),
+            };
+            let found = guided_impact
+                .impulses(expansion)
+                .map_err(|at| trouble(places[at], ContactTrouble::Paradox))?;
+            for (place, found) in places.iter().zip(found) {
+                impulses[*place] = found;
+            }
+        }
         Ok(impulses)
+    }
+
+    /// The place of a contact that meets, and those of the guides with friction that its impact loads, directly or by others.
+    ///
+    /// # Errors
+    /// What `several` says where another contact that touches is among what it acts on.
+    fn guides_loaded(
+        &self,
+        (here, place): (&ContactKinematics, usize),
+        (colliding, g): (&[usize], &[f64]),
+        several: impl Fn(usize) -> StepError,
+    ) -> Result<Vec<usize>, StepError> {
+        let width = 2 * colliding.len();
+        let mut places = vec![place];
+        let mut known = 0;
+        while known < places.len() {
+            let from = places[known];
+            known += 1;
+            for (other, k) in colliding.iter().enumerate() {
+                let is_coupled =
+                    acts_on((g, width), [from, other]) || acts_on((g, width), [other, from]);
+                if !is_coupled || places.contains(&other) {
+                    continue;
+                }
+                if !self.is_guide(*k) {
+                    return Err(several(place));
+                }
+                if here.friction(*k) != [0.0; 2] {
+                    places.push(other);
+                }
+            }
+        }
+        Ok(places)
     }
 
     /// Which contacts neither open nor close; of those that yield, which are pressed.

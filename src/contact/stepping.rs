@@ -8,7 +8,8 @@
 //! with everything in the middle of the step, for contacts that were closed, or whose gap would be negative at the end of the step. The rates b, and the parts w of the step that are left after
 //! an impulse, are those of a contact that is alone (`approach`). A contact that bounces has `ξ = γₜ⁺ + eₜ γₜ` at the instant at which it does, and any other one `ξ = γₜ⁺` at the end of the step. With w = ½ and b = −e γₙ this is Moreau's step.
 //! (J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics*, 1988,
-//! section 8.) This is the law `newton`, with all contacts at once; `laws` has the step for other laws and for static friction. A penetration at the end of a
+//! section 8.) A guide presses with its mean reaction to all of this, `Λₙ = h (ν − z·f) + (ρ + M z)·(v⁺ − v) + (κ − W z)·Λ` in the terms of `guides`, to either side, and rubs with μ |Λₙ|.
+//! This is the law `newton`, with all contacts at once; `laws` has the step for other laws and for static friction. A penetration at the end of a
 //! step is removed by the smallest displacement in the metric of inertia (V. Acary,
 //! *Projected event-capturing time-stepping schemes for nonsmooth mechanical systems with unilateral contact and Coulomb's
 //! friction*, Comput. Methods Appl. Mech. Eng. 256 (2013) 224–250), and the energy that it adds is taken out of the rates (`penetration`).
@@ -24,6 +25,7 @@ use super::impact::Meeting;
 use super::kinematics::ContactKinematics;
 use super::problem::SATURATED;
 use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
+use crate::at::At;
 use crate::{StepError, System, Vector};
 use approach::Course;
 use laws::{ContactsOfStep, ImpulsesOfStep, LawsMemory};
@@ -91,11 +93,15 @@ pub(crate) struct SteppingMemory<V, M> {
     /// What the contacts do after the step, and their mean forces in it.
     modes: Vec<Mode>,
     forces: Vec<[f64; 2]>,
+    /// The sides to which contacts press after it.
+    sides: Vec<f64>,
     meeting: Meeting,
     entries: Vec<usize>,
     matrix: M,
     /// The same rates of those that touch, the courses of their gaps, and the rates with impulses.
     free_of_touching: Vec<f64>,
+    /// The reactions of guides to forces alone, with two numbers for each of those that touch, as [`ContactsOfStep`] has them; nothing without guides.
+    loads: Vec<f64>,
     courses: Vec<Course>,
     after: Vec<f64>,
     impulses: ImpulsesOfStep,
@@ -123,10 +129,12 @@ impl<V: Vector, M: Vector> SteppingMemory<V, M> {
             free: Vec::new(),
             modes: Vec::new(),
             forces: Vec::new(),
+            sides: Vec::new(),
             meeting: Meeting::default(),
             entries: Vec::new(),
             matrix: M::zeros(n * n),
             free_of_touching: Vec::new(),
+            loads: Vec::new(),
             courses: Vec::new(),
             after: Vec::new(),
             impulses: ImpulsesOfStep::default(),
@@ -155,15 +163,10 @@ impl UnilateralState {
     /// # Errors
     /// The first contact that yields.
     pub fn check_stepping(&self, t: f64) -> Result<(), StepError> {
-        let is_not_stepped = |k: &usize| self.is_compliant(*k) || self.is_guide(*k);
-        match (0..self.modes().len()).find(is_not_stepped) {
+        match (0..self.modes().len()).find(|k| self.is_compliant(*k)) {
             Some(contact) => Err(StepError::Contact {
                 contact,
-                trouble: if self.is_guide(contact) {
-                    ContactTrouble::GuideNotStepped
-                } else {
-                    ContactTrouble::NotStepped
-                },
+                trouble: ContactTrouble::NotStepped,
                 t,
             }),
             None => Ok(()),
@@ -176,7 +179,7 @@ impl UnilateralState {
     }
 
     /// Adds the impulses of the contacts in a step of length `h` to `v`, which on entry is what the rates would be at its
-    /// end without them. `middle` are time and place in the middle of the step, and `before` the rates at its beginning. What the contacts did is written to
+    /// end without them. The middle of the step is that without impulses, and `before` are the rates at its beginning. What the contacts did is written to
     /// `stepped`, which on entry says nothing.
     ///
     /// # Errors
@@ -184,7 +187,7 @@ impl UnilateralState {
     pub fn step<S: System>(
         &mut self,
         system: &S,
-        (t, q): (f64, &S::Vector),
+        middle: At<'_, S>,
         (before, v): (&S::Vector, &mut S::Vector),
         h: f64,
         (stepped, memory): (
@@ -192,6 +195,7 @@ impl UnilateralState {
             &mut SteppingMemory<S::Vector, S::Matrix>,
         ),
     ) -> Result<(), StepError> {
+        let At { t, q, .. } = middle;
         let here = self.kinematics(system, (t, q, before));
         self.write_touching(system, (t, q), (&here, before, v), h, memory);
         if memory.meeting.contacts.is_empty() {
@@ -205,9 +209,11 @@ impl UnilateralState {
             entries,
             matrix,
             free_of_touching,
+            loads,
             courses,
             impulses,
             laws,
+            of_forces,
             ..
         } = &mut *memory;
         meeting.evaluate(system, (t, q), &here, (matrix, entries))?;
@@ -224,6 +230,11 @@ impl UnilateralState {
             meeting.evaluate(system, (t, q), &here, (matrix, entries))?;
             self.write_courses(&here, (meeting, free_of_touching), h, courses);
         }
+        loads.clear();
+        if self.has_guides() {
+            meeting.guides.evaluate_loads(system, middle);
+            write_loads(meeting, (of_forces, h), loads);
+        }
         let contacts_of_step = ContactsOfStep {
             touching: self,
             here: &here,
@@ -231,6 +242,7 @@ impl UnilateralState {
             t,
             h,
             free: free_of_touching,
+            loads,
             courses,
         };
         contacts_of_step.write_impulses(impulses, laws)?;
@@ -238,6 +250,9 @@ impl UnilateralState {
         self.tell(system, (t, q), &here, h, (stepped, memory));
         stepped.work += changed;
         self.set_stepped(&memory.modes, &memory.forces);
+        if self.has_guides() {
+            self.set_sides(&memory.sides);
+        }
         Ok(())
     }
 
@@ -404,6 +419,7 @@ impl UnilateralState {
         let SteppingMemory {
             modes,
             forces,
+            sides,
             meeting,
             free_of_touching: free,
             after,
@@ -466,6 +482,28 @@ impl UnilateralState {
         }
         (stepped.impacts).sort_unstable_by_key(|impact| impact.contact);
         write_groups(stepped, (meeting, free), places);
+        if self.has_guides() {
+            self.write_sides(stepped, sides);
+        }
+    }
+
+    /// Writes the sides to which guides press after a step. What an impact in it made of a reaction says nothing of that.
+    fn write_sides(&self, stepped: &SteppedContacts, sides: &mut Vec<f64>) {
+        sides.clear();
+        sides.extend_from_slice(self.sides());
+        let SteppedContacts {
+            impacts, groups, ..
+        } = stepped;
+        let is_hit = |group: usize| {
+            let mut own = impacts.iter().zip(groups);
+            own.any(|(impact, of)| *of == group && self.modes()[impact.contact] == Mode::Open)
+        };
+        for (impact, group) in impacts.iter().zip(groups) {
+            let normal = impact.impulse[0];
+            if self.is_guide(impact.contact) && normal != 0.0 && !is_hit(*group) {
+                sides[impact.contact] = normal.signum();
+            }
+        }
     }
 
     /// What a contact did in a step, if it is closed at its end; of contacts before it this is known.
@@ -480,6 +518,7 @@ impl UnilateralState {
         let least = impulses.approaches[place].least.min(0.0);
         let opens =
             impulses.all[place] == [0.0; 2] && after[2 * place] - least > here.rate_rounding(2 * k);
+        let opens = opens && !self.is_guide(k);
         if self.carrier(k).map_or(opens, |on| modes[on] == Mode::Open) {
             return None;
         }
@@ -504,7 +543,7 @@ impl UnilateralState {
         let impulse = impulses[place];
         let pressing = match self.carrier(k) {
             Some(_) => impulses[place - 1][0],
-            None => impulse[0],
+            None => self.pressing(k, impulse[0]),
         };
         let most = here.friction(k)[0] * pressing;
         if self.second(k).is_some() {
@@ -582,6 +621,16 @@ fn write_after(meeting: &Meeting, (free, impulses): (&[f64], &[[f64; 2]]), after
         let by = row.iter().zip(impulses.as_flattened());
         free + by.map(|(g, i)| g * i).sum::<f64>()
     }));
+    meeting.clear_rates_of_guides(after);
+}
+
+/// Writes the impulses of the reactions of guides to forces that change the rates of coordinates by this over a step of length `h`, each times `G_nn` of its guide.
+fn write_loads(meeting: &Meeting, (change, h): (&[f64], f64), loads: &mut Vec<f64>) {
+    let width = meeting.directions.len();
+    loads.extend(meeting.contacts.iter().enumerate().flat_map(|(place, k)| {
+        let unit = meeting.g[2 * place * width + 2 * place];
+        [unit * meeting.guides.impulse_of_forces(*k, change, h), 0.0]
+    }));
 }
 
 /// Writes which impacts inertia couples, directly or by others, and what energy is not told from that of forces within the step.
@@ -621,8 +670,13 @@ fn write_groups(
     }
 }
 
-/// Whether two contacts of a meeting share inertia.
+/// Whether two contacts of a meeting share inertia. Nothing acts along the normal of a guide, but what acts along others loads it.
 fn is_coupled(meeting: &Meeting, [one, other]: [usize; 2]) -> bool {
+    acts_on(meeting, [one, other]) || meeting.guides.are_there() && acts_on(meeting, [other, one])
+}
+
+/// Whether impulses of the other one of two contacts of a meeting change a rate or a reaction of the first.
+fn acts_on(meeting: &Meeting, [one, other]: [usize; 2]) -> bool {
     let width = meeting.directions.len();
     (0..4).any(|pair| {
         let (row, column) = (2 * one + pair / 2, 2 * other + pair % 2);

@@ -43,7 +43,8 @@ pub(crate) use crate::contact_law::Margin;
 pub(crate) struct UnilateralState {
     modes: Vec<Mode>,
     has_friction: Vec<bool>,
-    /// How many contacts are guides, the last ones; and to which side each contact presses when it slides, 1 or −1. Only guides press to both.
+    /// How many contacts are guides, the last ones; and to which side each contact presses when it slides, 1 or −1. Only guides press to both. Before the first step of
+    /// a run in time stepping, their sides are 0.
     guides: usize,
     sides: Vec<f64>,
     /// The contacts in the order in which problems are written: see [`order_of_problems`].
@@ -244,9 +245,33 @@ impl UnilateralState {
         self.stepped = Some(vec![[0.0; 2]; self.modes.len()]);
     }
 
+    /// Begins a run in time stepping with its guides, which are closed before the first step: they stick where nothing slips. To which side they press is not known yet, which is
+    /// a side of 0.
+    pub fn close_guides<S: System>(&mut self, system: &S, place: (f64, &S::Vector, &S::Vector)) {
+        if !self.has_guides() {
+            return;
+        }
+        let here = self.kinematics(system, place);
+        for k in self.modes.len() - self.guides..self.modes.len() {
+            let slip = here.rates[2 * k + 1];
+            self.modes[k] = if !self.has_friction[k] {
+                Mode::Slides(0.0)
+            } else if slip.abs() <= here.rate_rounding(2 * k + 1) {
+                Mode::Sticks
+            } else {
+                Mode::Slides(slip.signum())
+            };
+            self.sides[k] = 0.0;
+        }
+        self.begin_stepping();
+    }
+
     /// What was closed in the last step of time stepping goes on as constraints, slips and sticks being known when contacts meet.
     pub fn end_stepping(&mut self) {
         self.stepped = None;
+        for side in self.sides.iter_mut().filter(|side| **side == 0.0) {
+            *side = 1.0;
+        }
         let held = self.held_directions(&self.modes);
         self.held = held;
     }
@@ -409,6 +434,11 @@ impl UnilateralState {
         &self.sides
     }
 
+    /// Takes the sides to which guides press from a step of time stepping.
+    pub(super) fn set_sides(&mut self, sides: &[f64]) {
+        self.sides.copy_from_slice(sides);
+    }
+
     /// The guides that slide as they did, and press to other sides than they did.
     pub fn switched(&self, modes: &[Mode], sides: &[f64]) -> Vec<usize> {
         let slides = |k: usize| matches!(modes[k], Mode::Slides(_)) && modes[k] == self.modes[k];
@@ -452,6 +482,11 @@ impl UnilateralState {
     /// Which directions are constraints now.
     pub(super) fn held(&self) -> &[usize] {
         &self.held
+    }
+
+    /// The direction that this one of the constraints is now, if there are so many.
+    pub fn held_by(&self, constraint: usize) -> Option<usize> {
+        self.held.get(constraint).copied()
     }
 
     /// For each direction that is a constraint now the greatest rate of a contact so far, and 0 for rates in other units: what resists rolling.

@@ -106,11 +106,12 @@ impl ExpandingClosed {
     }
 
     /// The series while contacts do this, if there is one.
-    fn find(&mut self, contacts: &[ContactMode]) -> Option<&mut Ready> {
+    fn find(&mut self, (contacts, dependent): (&[ContactMode], &[usize])) -> Option<&mut Ready> {
         self.series.0.as_ref()?;
         self.states.clear();
-        for contact in contacts {
-            self.states.push(state(*contact)?);
+        for (k, contact) in contacts.iter().enumerate() {
+            let follows = [2 * k, 2 * k + 1].map(|direction| dependent.contains(&direction));
+            self.states.push(state(*contact, follows)?);
         }
         let states = &self.states;
         if let Some(place) = self.ready.iter().position(|of| of.states == *states) {
@@ -128,34 +129,32 @@ impl ExpandingClosed {
         self.ready.last_mut()
     }
 
-    /// Whether there is a series while contacts do this.
-    pub(super) fn has(&mut self, contacts: &[ContactMode]) -> bool {
-        self.find(contacts).is_some()
-    }
-
-    /// Expands the motion while contacts do this through a state, as [`Expanding::expand`].
+    /// Expands the motion while contacts do this through a state, as [`Expanding::expand`]; `None` if there is no series then.
     pub(super) fn expand(
         &mut self,
-        contacts: &[ContactMode],
+        contacts: (&[ContactMode], &[usize]),
         parameters: impl FnOnce() -> Vec<f64>,
         at: ([f64; 2], [&[f64]; 3]),
         coefficients: &mut [Vec<f64>],
-    ) -> Result<(), Singular> {
-        match self.find(contacts) {
-            Some(Ready {
-                known, expanding, ..
-            }) => expanding.expand((known, parameters), at, coefficients),
-            None => Ok(()),
-        }
+    ) -> Option<Result<(), Singular>> {
+        let Ready {
+            known, expanding, ..
+        } = self.find(contacts)?;
+        Some(expanding.expand((known, parameters), at, coefficients))
     }
 }
 
-/// What a contact does, unless it slips in space.
-fn state(contact: ContactMode) -> Option<ContactState> {
-    match contact {
-        ContactMode::Open => Some(ContactState::Open),
-        ContactMode::Sticks => Some(ContactState::Sticks),
-        ContactMode::Slides(sign) => Some(ContactState::Slips(sign as i8)),
-        ContactMode::SlidesAlong(_) => None,
-    }
+/// What a contact does of which the gap and the slip may follow from those of others; `None` if it slips in space, or slips with a normal force that other contacts share.
+fn state(contact: ContactMode, follows: [bool; 2]) -> Option<ContactState> {
+    Some(match (contact, follows) {
+        (ContactMode::SlidesAlong(_), _) => return None,
+        (ContactMode::Slides(sign), [true, _]) if sign != 0.0 => return None,
+        // Nothing of it is left: a force that is 0, and conditions that others meet.
+        (ContactMode::Open, _) | (ContactMode::Slides(_), [true, _]) => ContactState::Open,
+        (ContactMode::Slides(sign), [false, _]) => ContactState::Slips(sign as i8),
+        (ContactMode::Sticks, [false, false]) => ContactState::Sticks,
+        (ContactMode::Sticks, [false, true]) => ContactState::SticksAlongNormal,
+        (ContactMode::Sticks, [true, false]) => ContactState::SticksAlongTangent,
+        (ContactMode::Sticks, [true, true]) => ContactState::Open,
+    })
 }

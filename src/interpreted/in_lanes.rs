@@ -21,7 +21,7 @@ struct InLanes {
     engine: MachineCode,
     /// `None` as long as it does not pay.
     library: Option<Arc<Library>>,
-    /// The same for series, which may be derived while these runs are made.
+    /// The code of the series, `None` as long as it does not pay. The series may be derived while these runs are made.
     code_of_series: Option<Arc<SeriesCode>>,
     program: Arc<Program>,
     /// Created with the first machine.

@@ -49,7 +49,7 @@ impl PreciseRun {
         self.polled_end(machine, start, until, &|| Ok(()))
     }
 
-    /// The same; `poll` is called before each step, and the run ends with the error that it returns.
+    /// The state at the end of a run, as [`end`](Self::end); `poll` is called before each step, and the run ends with the error that it returns.
     ///
     /// # Errors
     /// As for [`end`](Self::end), and those of `poll`.

@@ -6,6 +6,7 @@ use std::vec;
 use std::vec::Vec;
 
 use lagrangian_program as program;
+use lagrangian_program::quantity::Extent;
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape};
 use lagrangian_scalar::Interval;
 use lagrangian_spec::model;
@@ -42,9 +43,8 @@ pub struct InterpretedSystem {
     enclosing: SharedWorkspace<Option<Interpreter<Interval>>>,
     pub(super) series: MotionSeries,
     has_linear_assumptions: bool,
-    has_state_energy: bool,
-    /// Whether it has work and losses that are not always 0.
-    has_powers: [bool; 2],
+    /// The quantities of one number that are 0 at every state.
+    zeros: Arc<[Role]>,
     pub(super) expanding: SharedWorkspace<Expanding>,
     expanding_closed: SharedWorkspace<ExpandingClosed>,
 }
@@ -77,8 +77,7 @@ impl InterpretedSystem {
             enclosing: SharedWorkspace::new(None),
             series: machine.series.clone(),
             has_linear_assumptions: machine.program.has_linear_assumptions(),
-            has_state_energy: machine.program.function(Role::StateEnergy).is_some(),
-            has_powers: machine.program.has_powers(),
+            zeros: machine.zeros.clone(),
             expanding: SharedWorkspace::new(Expanding::new(machine.machine_code.clone())),
             expanding_closed: SharedWorkspace::new(ExpandingClosed::new(
                 machine.closed_series.clone(),
@@ -136,14 +135,51 @@ impl InterpretedSystem {
         enclosing
     }
 
+    /// Calls a function of a symmetric matrix, and writes the square matrix row after row.
+    fn fill_square(&self, role: Role, arguments: Arguments<'_, f64>, matrix: &mut [f64]) {
+        let n = arguments.q.len();
+        let Some(matrix) = matrix.get_mut(..n * n) else {
+            return;
+        };
+        // The lower triangle, row after row, goes to the beginning of the matrix. From the last entry on each is then moved to its place, which is not before that.
+        let lower = &mut matrix[..Shape::Symmetric(n).len()];
+        lower.fill(0.0);
+        self.fill(role, arguments, lower);
+        let mut last = lower.len();
+        for i in (0..n).rev() {
+            for j in (0..=i).rev() {
+                last -= 1;
+                matrix[i * n + j] = matrix[last];
+            }
+        }
+        for i in 0..n {
+            for j in 0..i {
+                matrix[j * n + i] = matrix[i * n + j];
+            }
+        }
+    }
+
     /// Calls a function that returns one number, whose value exists at every state.
     fn number(&self, role: Role, arguments: Arguments<'_, f64>) -> f64 {
+        if self.zeros.contains(&role) {
+            return 0.0;
+        }
         let mut result = [0.0];
         match self.call(role, arguments, &mut result) {
             Ok(()) => result[0],
             Err(_) => f64::NAN,
         }
     }
+}
+
+/// The quantities of one number that are 0 at every state, of those that every system has.
+pub(super) fn zeros(program: &Program) -> Arc<[Role]> {
+    let is_zero = |role: &Role| {
+        let (row, function) = (role.row(), program.function(*role));
+        let is_number = row.extent == Extent::Number && row.method.is_some();
+        is_number && function.is_none_or(|function| function.is_zero())
+    };
+    Role::all().filter(is_zero).collect()
 }
 
 /// A number with its rounding.
@@ -254,24 +290,20 @@ impl System for InterpretedSystem {
         expanded.map_err(|singular| singular_row(&self.program, singular))
     }
 
-    fn has_closed_series(&self, contacts: &[ContactMode]) -> bool {
-        self.expanding_closed.lock().has(contacts)
-    }
-
     fn closed_series(
         &self,
-        contacts: &[ContactMode],
+        contacts: (&[ContactMode], &[usize]),
         t: [f64; 2],
         (q, v): (&Vec<f64>, &Vec<f64>),
         u: &Named,
         coefficients: &mut [Vec<f64>],
-    ) -> Result<(), Singular> {
+    ) -> Option<Result<(), Singular>> {
         let parameters = || self.running.lock().interpreter.parameters().to_vec();
         let at = (t, [q.as_slice(), v.as_slice(), u.values.as_slice()]);
         let mut expanding = self.expanding_closed.lock();
-        let expanded = expanding.expand(contacts, parameters, at, coefficients);
+        let expanded = expanding.expand(contacts, parameters, at, coefficients)?;
         // Which contact it is matters to nobody: the run goes on by another method.
-        expanded.map_err(|singular| {
+        Some(expanded.map_err(|singular| {
             let own = self.program.dimension() + self.program.constraints.len();
             let coordinate = singular.coordinate.min(own.saturating_sub(1));
             singular_row(
@@ -281,30 +313,12 @@ impl System for InterpretedSystem {
                     ..singular
                 },
             )
-        })
+        }))
     }
 
+    // <quantities: interpreted>
     fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {
-        let n = q.len();
-        let Some(matrix) = matrix.get_mut(..n * n) else {
-            return;
-        };
-        // The lower triangle, row after row, goes to the beginning of the matrix. From the last entry on each is then moved to its place, which is not before that.
-        let lower = &mut matrix[..Shape::Symmetric(n).len()];
-        lower.fill(0.0);
-        self.fill(Role::MassMatrix, at(t, q, &[], &[]), lower);
-        let mut last = lower.len();
-        for i in (0..n).rev() {
-            for j in (0..=i).rev() {
-                last -= 1;
-                matrix[i * n + j] = matrix[last];
-            }
-        }
-        for i in 0..n {
-            for j in 0..i {
-                matrix[j * n + i] = matrix[i * n + j];
-            }
-        }
+        self.fill_square(Role::MassMatrix, at(t, q, &[], &[]), matrix);
     }
 
     fn bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut Vec<f64>) {
@@ -319,6 +333,66 @@ impl System for InterpretedSystem {
         self.fill(Role::Forces, at(t, q, v, &u.values), forces);
     }
 
+    fn constraint_positions(&self, t: f64, q: &Vec<f64>, positions: &mut [f64]) {
+        self.fill(Role::ConstraintPositions, at(t, q, &[], &[]), positions);
+    }
+
+    fn constraint_rates(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, rates: &mut [f64]) {
+        self.fill(Role::ConstraintRates, at(t, q, v, &[]), rates);
+    }
+
+    fn constraint_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
+        self.fill(Role::ConstraintMatrix, at(t, q, &[], &[]), matrix);
+    }
+
+    fn constraint_bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut [f64]) {
+        self.fill(Role::ConstraintBias, at(t, q, v, &[]), bias);
+    }
+
+    fn slips(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, slips: &mut [f64]) {
+        self.fill(Role::Slips, at(t, q, v, &[]), slips);
+    }
+
+    fn slip_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
+        self.fill(Role::SlipMatrix, at(t, q, &[], &[]), matrix);
+    }
+
+    fn slip_bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut [f64]) {
+        self.fill(Role::SlipBias, at(t, q, v, &[]), bias);
+    }
+
+    fn gaps(&self, t: f64, q: &Vec<f64>, gaps: &mut [f64]) {
+        self.fill(Role::Gaps, at(t, q, &[], &[]), gaps);
+    }
+
+    fn contact_rates(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, rates: &mut [f64]) {
+        self.fill(Role::ContactRates, at(t, q, v, &[]), rates);
+    }
+
+    fn contact_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
+        self.fill(Role::ContactMatrix, at(t, q, &[], &[]), matrix);
+    }
+
+    fn contact_bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut [f64]) {
+        self.fill(Role::ContactBias, at(t, q, v, &[]), bias);
+    }
+
+    fn contact_coefficients(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, coefficients: &mut [f64]) {
+        self.fill(Role::ContactCoefficients, at(t, q, v, &[]), coefficients);
+    }
+
+    fn contact_faces(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, faces: &mut [f64]) {
+        self.fill(Role::ContactFaces, at(t, q, v, &[]), faces);
+    }
+
+    fn guide_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
+        self.fill(Role::GuideMatrix, at(t, q, &[], &[]), matrix);
+    }
+
+    fn guide_loads(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named, loads: &mut [f64]) {
+        self.fill(Role::GuideLoads, at(t, q, v, &u.values), loads);
+    }
+
     fn kinetic_energy(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> f64 {
         self.number(Role::KineticEnergy, at(t, q, v, &[]))
     }
@@ -328,9 +402,6 @@ impl System for InterpretedSystem {
     }
 
     fn state_energy(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> f64 {
-        if !self.has_state_energy {
-            return 0.0;
-        }
         self.number(Role::StateEnergy, at(t, q, v, &[]))
     }
 
@@ -339,22 +410,21 @@ impl System for InterpretedSystem {
     }
 
     fn work_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &Vec<f64>, u: &Named) -> f64 {
-        if !self.has_powers[0] {
-            return 0.0;
-        }
-        let u = &u.values;
-        self.number(Role::WorkRate, Arguments { t, q, v, u, a })
+        let arguments = Arguments {
+            a,
+            ..at(t, q, v, &u.values)
+        };
+        self.number(Role::WorkRate, arguments)
     }
 
     fn dissipation_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named) -> f64 {
-        if !self.has_powers[1] {
-            return 0.0;
-        }
         self.number(Role::DissipationRate, at(t, q, v, &u.values))
     }
+    // </quantities>
 
     fn has_powers(&self) -> bool {
-        self.has_powers != [false; 2]
+        let powers = [Role::WorkRate, Role::DissipationRate];
+        !powers.iter().all(|role| self.zeros.contains(role))
     }
 
     fn default_inputs(&self) -> Named {
@@ -411,22 +481,6 @@ impl System for InterpretedSystem {
             multiplier_unit: &constraint.multiplier_unit,
             holonomic: constraint.holonomic,
         })
-    }
-
-    fn constraint_positions(&self, t: f64, q: &Vec<f64>, residuals: &mut [f64]) {
-        self.fill(Role::ConstraintPositions, at(t, q, &[], &[]), residuals);
-    }
-
-    fn constraint_rates(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, residuals: &mut [f64]) {
-        self.fill(Role::ConstraintRates, at(t, q, v, &[]), residuals);
-    }
-
-    fn constraint_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
-        self.fill(Role::ConstraintMatrix, at(t, q, &[], &[]), matrix);
-    }
-
-    fn constraint_bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut [f64]) {
-        self.fill(Role::ConstraintBias, at(t, q, v, &[]), bias);
     }
 
     fn multipliers(
@@ -504,40 +558,8 @@ impl System for InterpretedSystem {
             })
     }
 
-    fn gaps(&self, t: f64, q: &Vec<f64>, gaps: &mut [f64]) {
-        self.fill(Role::Gaps, at(t, q, &[], &[]), gaps);
-    }
-
-    fn contact_faces(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, faces: &mut [f64]) {
-        self.fill(Role::ContactFaces, at(t, q, v, &[]), faces);
-    }
-
-    fn contact_rates(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, rates: &mut [f64]) {
-        self.fill(Role::ContactRates, at(t, q, v, &[]), rates);
-    }
-
-    fn contact_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
-        self.fill(Role::ContactMatrix, at(t, q, &[], &[]), matrix);
-    }
-
-    fn contact_bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut [f64]) {
-        self.fill(Role::ContactBias, at(t, q, v, &[]), bias);
-    }
-
-    fn contact_coefficients(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, coefficients: &mut [f64]) {
-        self.fill(Role::ContactCoefficients, at(t, q, v, &[]), coefficients);
-    }
-
     fn guides(&self) -> usize {
         self.program.sizes().guides
-    }
-
-    fn guide_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
-        self.fill(Role::GuideMatrix, at(t, q, &[], &[]), matrix);
-    }
-
-    fn guide_loads(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named, loads: &mut [f64]) {
-        self.fill(Role::GuideLoads, at(t, q, v, &u.values), loads);
     }
 
     fn single_contacts(&self) -> Option<&[bool]> {
@@ -586,10 +608,6 @@ impl System for InterpretedSystem {
         self.program.kept.iter().map(String::as_str)
     }
 
-    fn slips(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, slips: &mut [f64]) {
-        self.fill(Role::Slips, at(t, q, v, &[]), slips);
-    }
-
     fn slip_ranges(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, ranges: &mut [[f64; 2]]) {
         let mut slips = vec![Interval::UNKNOWN; ranges.len()];
         let arguments = Arguments {
@@ -607,14 +625,6 @@ impl System for InterpretedSystem {
         for (range, slip) in ranges.iter_mut().zip(slips) {
             *range = [slip.lo(), slip.hi()];
         }
-    }
-
-    fn slip_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
-        self.fill(Role::SlipMatrix, at(t, q, &[], &[]), matrix);
-    }
-
-    fn slip_bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut [f64]) {
-        self.fill(Role::SlipBias, at(t, q, v, &[]), bias);
     }
 
     fn friction(

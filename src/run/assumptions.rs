@@ -246,6 +246,45 @@ fn widened(known: Option<[f64; 2]>, [low, high]: [f64; 2], by: f64) -> [f64; 2] 
     ]
 }
 
+/// How many states of a step are kept at most for the searches after the first one.
+const MOST_STATES: usize = 512;
+
+/// States of a step at some of its fractions, in their order. Several searches along one step begin with the same fractions, which are few, and go on with others of their own: the first ones are
+/// kept, and all others are evaluated again.
+struct KnownStates<V> {
+    most: usize,
+    states: Vec<(f64, Triple<V>)>,
+}
+
+impl<V: Vector> KnownStates<V> {
+    /// For so many searches: one alone evaluates no state twice.
+    fn of_searches(searches: usize) -> Self {
+        Self {
+            most: if searches > 1 { MOST_STATES } else { 0 },
+            states: Vec::new(),
+        }
+    }
+
+    /// The state at a fraction of the step, which is evaluated if it is not known.
+    fn at<E>(
+        &mut self,
+        theta: f64,
+        evaluate: impl FnOnce(f64) -> Result<Triple<V>, E>,
+    ) -> Result<Triple<V>, E> {
+        let place = (self.states).binary_search_by(|(other, _)| other.total_cmp(&theta));
+        match place {
+            Ok(place) => Ok(self.states[place].1.clone()),
+            Err(place) => {
+                let state = evaluate(theta)?;
+                if self.states.len() < self.most {
+                    self.states.insert(place, (theta, state.clone()));
+                }
+                Ok(state)
+            }
+        }
+    }
+}
+
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// The time at which an assumption of the description ended in the last step, and its text. It may hold again at the end of the step,
     /// so assumptions are searched like events.
@@ -341,22 +380,9 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             Vec::new()
         };
         // All searches begin with the same fractions.
-        let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
+        let mut known = KnownStates::of_searches(count);
         for index in (0..count).filter(|index| places[*index] == Some(Places::All)) {
-            let margin = |theta: f64| {
-                let found = known.iter().find(|(other, _)| *other == theta);
-                let state = match found {
-                    Some((_, state)) => state.clone(),
-                    None => {
-                        let state = at(theta)?;
-                        if count > 1 {
-                            known.push((theta, state.clone()));
-                        }
-                        state
-                    }
-                };
-                Ok(self.margin(index, state))
-            };
+            let margin = |theta: f64| Ok(self.margin(index, known.at(theta, at)?));
             let may_continue = || event::go_on_unless(shall_stop(event::beginning(stepper)));
             let found = roots::isolating_fractions(margin, may_continue);
             looks.extend(found.map_err(|why| {
@@ -489,8 +515,35 @@ mod tests {
     use core::cell::Cell;
     use std::vec::Vec;
 
-    use super::HeldBounds;
+    use super::{HeldBounds, KnownStates, MOST_STATES};
     use crate::taylor::MotionBounds;
+
+    /// Three searches begin with the same 129 fractions and go on with 100 000 of their own. Each evaluates its own, the first one also the common ones, and what is kept is bounded.
+    #[test]
+    fn states_that_several_searches_share_are_evaluated_once_and_few_are_kept() {
+        let (common, own) = (129, 100_000);
+        for searches in [1, 3] {
+            let mut known = KnownStates::<[f64; 1]>::of_searches(searches);
+            let evaluated = Cell::new(0);
+            for search in 0..searches {
+                let theta_of_common = |k: usize| k as f64 / 128.0;
+                // No two of these are the same, and none is a common one.
+                let theta_of_own = |k: usize| ((3 * k + search) as f64 + 0.5) / (4 * own) as f64;
+                let all = (0..common).map(theta_of_common);
+                for theta in all.chain((0..own).map(theta_of_own)) {
+                    let found: Result<_, ()> = known.at(theta, |theta| {
+                        evaluated.set(evaluated.get() + 1);
+                        Ok((theta, [2.0 * theta], [3.0 * theta]))
+                    });
+                    assert_eq!(found, Ok((theta, [2.0 * theta], [3.0 * theta])));
+                }
+            }
+            let kept = if searches == 1 { 0 } else { MOST_STATES };
+            assert_eq!(known.states.len(), kept);
+            assert!(known.states.is_sorted_by(|(a, _), (b, _)| a < b));
+            assert_eq!(evaluated.get(), common + searches * own);
+        }
+    }
 
     /// A motion that swings within bounds of which some are near, `x = middle + size sin t`, in steps of a quarter of a radian: looks are few, since the
     /// bounds of all steps are kept, however little they can be widened.

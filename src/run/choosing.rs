@@ -457,6 +457,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let is_of_series = matches!(
             error,
             StepError::Singular { .. }
+                | StepError::NoSeries { .. }
                 | StepError::NotFinite { .. }
                 | StepError::StepTooSmall { .. }
         );

@@ -479,7 +479,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let [at_first, at_second] = ends;
         let (at_first, at_second) = (at_first?, at_second?);
         for (k, kind) in interval.doubtful_margins() {
-            if at_second.each[k][kind].is_lost_since(at_first.each[k][kind]) {
+            let [first, second] = [&at_first, &at_second].map(|margins| margins.each[k][kind]);
+            let slips = kind == 1 && matches!(interval.touching.modes()[k], Mode::Slides(_));
+            // A slip that has turned may still have its former direction, by the error with which the instant of that is known. It then loses this first.
+            let is_turning = slips && first.value < 0.0 && second.value > first.value;
+            if second.is_lost_since(first) && !is_turning {
                 let (found, cause) = search.lost(k, kind, at_second.shares[k])?;
                 let change = FoundChange {
                     cause,

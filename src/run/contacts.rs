@@ -72,7 +72,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         self.record.unilateral.losses = vec![0.0; touching.modes().len()];
         if self.settings.method.is_time_stepping() {
-            return self.begin_stepping(&touching);
+            return self.begin_stepping();
         }
         let step = self.settings.first_step.unwrap_or(0.0);
         let v_before = self.stepper.v().clone();

@@ -30,10 +30,6 @@ const EXPANSIONS: f64 = 1.5;
 /// The evaluations that it takes to change to `dop853` and back where contacts close: a step that is rejected.
 const LANDING: f64 = EVALUATIONS;
 
-/// After so many further changes at one instant a motion with closed contacts goes by `dop853` until contacts change again: a slip that was located just before it stops, by more than
-/// its rounding, is found at the beginning of the next polynomial, again and again.
-const MOST_AT_ONCE: usize = 4;
-
 /// How the flights of a run are integrated.
 #[derive(Debug, Default)]
 pub(super) struct Flights {
@@ -49,8 +45,6 @@ pub(super) struct Flights {
     landings: usize,
     /// Whether the present motion is a flight.
     flies: bool,
-    /// The last instant at which contacts changed, and how often they did there before.
-    last_change: (f64, usize),
 }
 
 impl Flights {
@@ -76,15 +70,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             flights.landings += usize::from(!flies);
         }
         flights.flies = flies;
-        let t = self.stepper.t();
-        flights.last_change = match flights.last_change {
-            (last, times) if last == t => (last, times + 1),
-            _ => (t, 0),
-        };
         if !flights.by_series {
             return Ok(());
         }
-        let closes_by_series = flights.closes_by_series && flights.last_change.1 < MOST_AT_ONCE;
+        let closes_by_series = flights.closes_by_series;
         let (method, reason) = if flies {
             (Method::TAYLOR, MethodReason::Open)
         } else if closes_by_series && self.stepper.has_closed_series() {

@@ -42,6 +42,8 @@ const LONG_STEP: f64 = 1.5;
 pub(super) struct ContactActivity {
     /// Whether the run may change to time stepping at all.
     is_free: bool,
+    /// The number of contacts that are not guides.
+    bouncing: usize,
     /// The last instants at which contacts changed.
     times: VecDeque<f64>,
     /// The accelerations at which forces close gaps at these instants, in m/s². At a single instant this may be almost zero: a spring
@@ -63,11 +65,13 @@ pub(super) struct ContactActivity {
 }
 
 impl ContactActivity {
-    /// For a machine with these contacts, of which it is said which ones are second tangents of others.
-    pub fn new(is_free: bool, across: Vec<bool>) -> Self {
+    /// For a machine with these contacts, of which it is said which ones are second tangents of others. So many of them, the last ones, are guides, which do not bounce.
+    pub fn new(is_free: bool, guides: usize, across: Vec<bool>) -> Self {
         let contacts = across.len();
+        let bouncing = contacts.saturating_sub(guides);
         Self {
-            is_free: is_free && contacts >= FEWEST_CONTACTS,
+            is_free: is_free && bouncing >= FEWEST_CONTACTS,
+            bouncing,
             times: VecDeque::new(),
             closing_accelerations: VecDeque::new(),
             is_same_instant: false,
@@ -131,7 +135,8 @@ impl ContactActivity {
     fn window(&self) -> Option<f64> {
         let (first, last) = (self.times.front()?, self.times.back()?);
         let since = self.count.saturating_sub(WINDOW);
-        let several = self.last.iter().filter(|last| **last > since).count() >= FEWEST_CONTACTS;
+        let changed = self.last[..self.bouncing].iter();
+        let several = changed.filter(|last| **last > since).count() >= FEWEST_CONTACTS;
         (self.times.len() == WINDOW && several).then_some(last - first)
     }
 }

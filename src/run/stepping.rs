@@ -1,12 +1,11 @@
 //! Unilateral contacts in time stepping: checks and records.
 
-use std::vec;
 use std::vec::Vec;
 
 use super::Run;
 use super::contacts::ReportedEvent;
 use crate::balance::Quadratures;
-use crate::contact::{Mode, UnilateralState};
+use crate::contact::Mode;
 use crate::inputs::InputLaw;
 use crate::phases::{Change, Phase, StepRecord};
 use crate::{ContactEventKind, ContactImpact, Error, Machine};
@@ -14,26 +13,33 @@ use crate::{ContactEventKind, ContactImpact, Error, Machine};
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// Checks the contacts at the start of time stepping: none may be penetrated, and time stepping must support
     /// the law of each.
-    pub(super) fn begin_stepping(&mut self, touching: &UnilateralState) -> Result<(), Error> {
+    pub(super) fn begin_stepping(&mut self) -> Result<(), Error> {
+        self.stepper.close_guides();
+        let Some(touching) = self.stepper.touching() else {
+            return Ok(());
+        };
         let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
         touching
             .check_stepping(t)
             .map_err(|error| self.model.explain(error, q, v))?;
-        self.record.unilateral.last = vec![false; touching.modes().len()];
-        self.push_phase(Phase {
+        // A guide is closed from the beginning.
+        self.record.unilateral.last = (touching.modes().iter())
+            .map(|mode| *mode != Mode::Open)
+            .collect();
+        let phase = Phase {
             since: t,
             until: f64::INFINITY,
             touching: touching.clone(),
             change: Change::default(),
             constraints: self.stepper.constraints().clone(),
-        });
+        };
+        self.push_phase(phase);
         Ok(())
     }
 
     /// Records the changes of contacts in the last step. A contact that presses for the first time has had an impact;
     /// if it still presses in the next step, it has closed.
     pub(super) fn record_step(&mut self) {
-        use ContactEventKind::{Closes, Lifts, Reverses, Slips, Sticks};
         let Some((stepped, before)) = self.stepper.stepped() else {
             return;
         };
@@ -46,6 +52,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         of_step.before.extend_from_slice(before.modes());
         of_step.after.clear();
         of_step.after.extend_from_slice(now.modes());
+        let mut switched = Vec::new();
+        if before.has_guides() {
+            switched = before.switched(now.modes(), now.sides());
+            // To which side it pressed before the first step is not known.
+            switched.retain(|guide| before.sides()[*guide] != 0.0);
+        }
         let StepRecord {
             stepped,
             before,
@@ -83,27 +95,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
         }
         for (k, (before, after)) in before.iter().zip(&*after).enumerate() {
-            let (has_carrier, is_across) = (self.has_carrier(k), self.is_across(k));
-            let lasts = &mut self.record.unilateral.last[k];
-            let kind = match (before, after) {
-                (Mode::Open, _) => continue,
-                (_, Mode::Open) if has_carrier => continue,
-                _ if is_across => continue,
-                (_, Mode::Open) if std::mem::take(lasts) => (Lifts, 0.0),
-                (_, Mode::Open) => continue,
-                _ if !has_carrier && !std::mem::replace(lasts, true) => (Closes, 0.0),
-                (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, *to),
-                (Mode::Slides(from), Mode::Sticks) if *from != 0.0 => (Sticks, 0.0),
-                (Mode::Sticks, Mode::Slides(to)) if *to != 0.0 => (Slips, *to),
-                (Mode::SlidesAlong(_), Mode::Sticks) => (Sticks, 0.0),
-                (Mode::Sticks, Mode::SlidesAlong(_)) => (Slips, 0.0),
-                _ => continue,
-            };
-            let directions = match kind.0 {
-                Slips => after.direction(),
-                _ => [kind.1, 0.0],
-            };
-            reported.push((k, kind.0, directions, None));
+            reported.extend(self.event_of_step(k, (before, after)));
+        }
+        for guide in switched {
+            reported.push((guide, ContactEventKind::Switches, [0.0; 2], None));
         }
         self.activity.count_quiet_step(reported.is_empty());
         self.enter_contact_events(reported, &[]);
@@ -112,6 +107,36 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         self.record_gains_of_step(&mut of_step, t);
         self.record.unilateral.of_step = of_step;
+    }
+
+    /// The event that the change of the mode of a contact in a step is, if it is one.
+    fn event_of_step(
+        &mut self,
+        k: usize,
+        (before, after): (&Mode, &Mode),
+    ) -> Option<ReportedEvent> {
+        use ContactEventKind::{Closes, Lifts, Reverses, Slips, Sticks};
+        let (has_carrier, is_across) = (self.has_carrier(k), self.is_across(k));
+        let lasts = &mut self.record.unilateral.last[k];
+        let kind = match (before, after) {
+            (Mode::Open, _) => return None,
+            (_, Mode::Open) if has_carrier => return None,
+            _ if is_across => return None,
+            (_, Mode::Open) if std::mem::take(lasts) => (Lifts, 0.0),
+            (_, Mode::Open) => return None,
+            _ if !has_carrier && !std::mem::replace(lasts, true) => (Closes, 0.0),
+            (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, *to),
+            (Mode::Slides(from), Mode::Sticks) if *from != 0.0 => (Sticks, 0.0),
+            (Mode::Sticks, Mode::Slides(to)) if *to != 0.0 => (Slips, *to),
+            (Mode::SlidesAlong(_), Mode::Sticks) => (Sticks, 0.0),
+            (Mode::Sticks, Mode::SlidesAlong(_)) => (Slips, 0.0),
+            _ => return None,
+        };
+        let directions = match kind.0 {
+            Slips => after.direction(),
+            _ => [kind.1, 0.0],
+        };
+        Some((k, kind.0, directions, None))
     }
 
     /// Notes impacts of the step that have created energy: those that inertia couples take it together.

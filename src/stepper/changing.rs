@@ -1,6 +1,7 @@
 //! Changes the method of a run to another one with variable steps, and provides the data for that decision.
 
 use super::{Stepper, Stiffness};
+use crate::at::At;
 use crate::balance::Quadratures;
 use crate::control::shortest_step;
 use crate::implicit::Implicit;
@@ -39,25 +40,32 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             control,
             ..
         } = self;
-        let Some(touching) = &model.touching else {
+        model.set_inputs(now.t, &now.q, &now.v);
+        let (Some(touching), Some(constraints)) = (&model.touching, &model.constraints) else {
             return false;
         };
-        // Dependent rows have no series, and where they are nearly so it is not accurate.
-        let constraints = model.constraints.as_ref();
-        if constraints.is_some_and(|constraints| constraints.redundant || constraints.at_fork) {
+        // Where rows are nearly dependent, a series is not accurate.
+        if constraints.at_fork {
             return false;
         }
-        let (system, contacts) = (model.system.get(), touching.modes());
-        if !system.has_closed_series(contacts) {
+        let at = At {
+            t: now.t,
+            q: &now.q,
+            v: &now.v,
+            u: &model.inputs,
+        };
+        let system = model.system.get();
+        let own = system.constraints().len();
+        if constraints.dependent().any(|row| row < own)
+            || constraints.redundant && !touching.friction_is_known(system, at)
+        {
             return false;
         }
-        model.set_inputs(now.t, &now.q, &now.v);
         let mut taylor = Taylor::new(&self.tolerance);
-        control.work.evaluations += 1;
-        taylor
-            .expand(model.in_series(), now, &model.inputs, false)
-            .is_ok()
-            && self.is_motion(&mut taylor)
+        let expanded = taylor.expand(model.in_series(), now, &model.inputs, false);
+        let has_series = !matches!(expanded, Err(StepError::NoSeries { .. }));
+        control.work.evaluations += usize::from(has_series);
+        expanded.is_ok() && self.is_motion(&mut taylor)
     }
 
     /// Whether a series through the present state has the accelerations that are known here, but for less than the error that a step by it may have.

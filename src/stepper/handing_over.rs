@@ -80,6 +80,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         reaction.is_ok_and(|reaction| reaction.is_only)
     }
 
+    /// Closes the guides of a run that begins with time stepping.
+    pub(crate) fn close_guides(&mut self) {
+        let Self { model, now, .. } = self;
+        if let Some(touching) = &mut model.touching {
+            touching.close_guides(model.system.get(), (now.t, &now.q, &now.v));
+        }
+    }
+
     /// Continues to `end` by time stepping, in steps of length `h`, with the contacts that are closed now.
     pub(crate) fn begin_stepping(&mut self, h: f64, end: f64) -> Result<(), StepError> {
         self.end = end;

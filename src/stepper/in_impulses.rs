@@ -3,6 +3,7 @@
 use std::vec::Vec;
 
 use super::{Model, Stepper};
+use crate::at::At;
 use crate::attempt::not_finite;
 use crate::balance::{ContactShare, Quadratures};
 use crate::compensated::two_sum;
@@ -123,8 +124,15 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         {
             let system = model.system.get();
             let t = before.t + (before.t_low + 0.5 * h);
+            let u = &model.inputs;
             let of_step = (&mut impulses.stepped, &mut impulses.memory);
-            touching.step(system, (t, q), (&before.v, &mut now.v), h, of_step)?;
+            touching.step(
+                system,
+                At { t, q, v, u },
+                (&before.v, &mut now.v),
+                h,
+                of_step,
+            )?;
         }
         let shift = if S::MAY_COLLIDE {
             impulses.memory.shift()

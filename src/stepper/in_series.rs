@@ -3,14 +3,16 @@
 use super::{Model, Stepper};
 use crate::attempt::{are_finite, not_finite};
 use crate::balance::Quadratures;
+use crate::constraints::Constraints;
 use crate::contact::UnilateralState;
 use crate::control::{Control, shortest_step};
 use crate::math::larger;
 use crate::stages::Point;
 use crate::taylor::{
-    GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect, size_of_rate,
+    ClosedContacts, GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect,
+    size_of_rate,
 };
-use crate::{ContactMode, InputLaw, StepError, System, Vector};
+use crate::{InputLaw, StepError, System, Vector};
 
 /// A step by series of a machine with unilateral contacts is at most so many times as long as the one before it.
 pub(super) const GROWTH_IN_FLIGHT: f64 = 2.0;
@@ -23,9 +25,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         } = self;
         let Some(taylor) = taylor else { return Ok(()) };
         model.set_inputs(now.t, &now.q, &now.v);
-        taylor
-            .expand(model.in_series(), now, &model.inputs, false)
-            .map_err(|singular| StepError::Singular { singular, t: now.t })
+        taylor.expand(model.in_series(), now, &model.inputs, false)
     }
 
     /// The coefficients of the motion in the last step, of coordinates, in powers of the time since its beginning. `None` if
@@ -156,8 +156,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
     /// Whether powers are integrated along its steps now. Closed contacts have some, that of their friction for one.
     pub(super) fn takes_powers_now(&self) -> bool {
-        let (_, closed) = self.model.in_series();
-        self.takes_powers() || closed.is_some() && self.quadratures.integrals().is_some()
+        let is_closed = || self.model.closed().is_some();
+        self.takes_powers() || is_closed() && self.quadratures.integrals().is_some()
     }
 
     /// Evaluates the powers within a step of length `h`. The accelerations in `stage` stay there.
@@ -214,14 +214,18 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         } = self;
         let Some(taylor) = taylor else { return Ok(()) };
         work.evaluations += 1;
-        taylor
-            .expand(model.in_series(), now, &model.inputs, true)
-            .map_err(|singular| StepError::Singular { singular, t: now.t })
+        taylor.expand(model.in_series(), now, &model.inputs, true)
     }
 
     /// Compares the accelerations of both series at the end of a step, of which that of the step left its own in `stage`. Returns the error of the step: 0, or
     /// infinite if the motion is not the series.
     pub(super) fn compare_in_series(&mut self, h: f64) -> Result<f64, StepError> {
+        if S::MAY_COLLIDE
+            && self.model.has_dependent_contacts()
+            && !self.keeps_dependent_contacts(h)?
+        {
+            return Ok(f64::INFINITY);
+        }
         let Self {
             method,
             before,
@@ -257,6 +261,35 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         let is_off = may_be_off && self.is_off(h)?;
         Ok(if is_off { f64::INFINITY } else { 0.0 })
+    }
+
+    /// Whether the series at the end of a step of length `h` has the accelerations with which all contacts stay closed and stick, also those without which it was derived since
+    /// they follow from the others at the beginning of the step.
+    fn keeps_dependent_contacts(&mut self, h: f64) -> Result<bool, StepError> {
+        let Self {
+            model,
+            before,
+            now,
+            stage,
+            control: Control { work, .. },
+            taylor,
+            tolerance,
+            ..
+        } = self;
+        let Some(taylor) = taylor else {
+            return Ok(true);
+        };
+        let (mut by_series, known) = (now.v.zeros_like(), &mut stage.1);
+        taylor.accelerations(true, &mut by_series);
+        model.accelerations(now.t, &now.q, &now.v, known, work)?;
+        let absolute = tolerance.absolute.as_slice();
+        let pairs = known.as_slice().iter().zip(by_series.as_slice());
+        let coordinates = pairs.enumerate().map(|(i, (known, found))| {
+            let size = size_of_rates([before, now], i);
+            [size, *known, known - found, absolute[i]]
+        });
+        let roundings = [tolerance.relative, ROUNDING_UNITS * f64::EPSILON];
+        Ok(defect(h, coordinates, roundings) <= GREATEST_DEFECT)
     }
 
     /// Whether the motion is not its series at the end of a step of length `h`, which was expanded there.
@@ -302,19 +335,34 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return Ok(true);
         }
         work.evaluations += 1;
-        taylor
-            .expand(model.in_series(), now, &model.inputs, true)
-            .map_err(|singular| StepError::Singular { singular, t: now.t })?;
+        taylor.expand(model.in_series(), now, &model.inputs, true)?;
         Ok(false)
     }
 }
 
 impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
-    /// The machine, with what its contacts do if one of them is closed.
-    pub(super) fn in_series(&self) -> (&S, Option<&[ContactMode]>) {
+    /// The state of the contacts, if one of them is closed.
+    fn closed(&self) -> Option<&UnilateralState> {
         let touching = self.touching.as_ref();
-        let closed = touching.filter(|touching| !touching.leaves_accelerations());
-        (self.system.get(), closed.map(UnilateralState::modes))
+        touching.filter(|touching| !touching.leaves_accelerations())
+    }
+
+    /// Whether closed contacts hold along more directions than are independent.
+    fn has_dependent_contacts(&self) -> bool {
+        let is_redundant = || self.constraints.as_ref().is_some_and(|of| of.redundant);
+        self.closed().is_some() && is_redundant()
+    }
+
+    /// The machine, with what its contacts do if one of them is closed, and the directions along which they are held only because others are.
+    pub(super) fn in_series(&self) -> (&S, Option<ClosedContacts<'_>>) {
+        let system = self.system.get();
+        let closed = self.closed().map(|touching| {
+            let dependent = self.constraints.as_ref().map(Constraints::dependent);
+            let held = |row: usize| touching.held_by(row.checked_sub(system.constraints().len())?);
+            let dependent = dependent.into_iter().flatten().filter_map(held);
+            (touching.modes(), dependent.collect())
+        });
+        (system, closed)
     }
 }
 

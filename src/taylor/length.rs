@@ -5,7 +5,7 @@ use crate::math::{larger, rough_exp2, rough_exp2_within, rough_log2};
 use crate::tolerance::Tolerance;
 
 /// The largest ratios of both last terms of rates to their bounds, which are this part of the tolerable errors; `None` unless both are positive and finite.
-/// The same arithmetic as with [`larger_ratio`], without branches.
+/// The arithmetic is that of [`larger_ratio`], without branches.
 #[inline(always)]
 pub(super) fn usual_ratios<V: Vector>(
     [q, v]: [&[f64]; 2],

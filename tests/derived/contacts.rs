@@ -382,7 +382,7 @@ lagrangian::machine! {
 }
 
 lagrangian::machine! {
-    /// The same without these.
+    /// The machine without derivatives and stages.
     machine PlainClapper in plane {
         parameters { m: kg = 2, l: m = 0.5, g: m/s^2 = 9.81, e: 1 = 0.7, A: m = 0.02, w: rad/s = 9 }
         coordinates { phi: rad = 0.4 }

@@ -11,7 +11,7 @@ use lagrangian::{
 /// The tolerance of a step, relative and absolute.
 const TOLERANCE: f64 = 1e-11;
 
-fn machine(text: &str, settings: &[(&str, f64)]) -> InterpretedMachine {
+pub(super) fn machine(text: &str, settings: &[(&str, f64)]) -> InterpretedMachine {
     let mut machine = InterpretedMachine::from_text(text)
         .build()
         .unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -21,7 +21,10 @@ fn machine(text: &str, settings: &[(&str, f64)]) -> InterpretedMachine {
     machine
 }
 
-fn run_to(machine: &InterpretedMachine, until: f64) -> Result<Solution<InterpretedMachine>, Error> {
+pub(super) fn run_to(
+    machine: &InterpretedMachine,
+    until: f64,
+) -> Result<Solution<InterpretedMachine>, Error> {
     Simulation::new(machine)
         .method(Method::named("dop853").expect("a method"))
         .tolerance(TOLERANCE)
@@ -31,7 +34,7 @@ fn run_to(machine: &InterpretedMachine, until: f64) -> Result<Solution<Interpret
 }
 
 /// Runs a machine and checks that its energy balance closes, and that no impact creates energy.
-fn run(machine: &InterpretedMachine, until: f64) -> Solution<InterpretedMachine> {
+pub(super) fn run(machine: &InterpretedMachine, until: f64) -> Solution<InterpretedMachine> {
     let run = run_to(machine, until).unwrap_or_else(|error| panic!("{error}"));
     is_booked(&run);
     run
@@ -62,29 +65,32 @@ fn is_booked(run: &Solution<InterpretedMachine>) {
 }
 
 #[track_caller]
-fn assert_near(found: f64, expected: f64, tolerance: f64) {
+pub(super) fn assert_near(found: f64, expected: f64, tolerance: f64) {
     assert!(
         (found - expected).abs() <= tolerance,
         "{found} for {expected}, to {tolerance:e}"
     );
 }
 
-fn events(run: &Solution<InterpretedMachine>, contact: &str) -> Vec<(ContactEventKind, f64)> {
+pub(super) fn events(
+    run: &Solution<InterpretedMachine>,
+    contact: &str,
+) -> Vec<(ContactEventKind, f64)> {
     let own = run.contact_events().iter();
     let own = own.filter(|event| event.contact == contact);
     own.map(|event| (event.kind, event.state.t)).collect()
 }
 
-fn q(state: &State<Named>, name: &str) -> f64 {
+pub(super) fn q(state: &State<Named>, name: &str) -> f64 {
     state.q.get(name).expect("a coordinate")
 }
 
-fn v(state: &State<Named>, name: &str) -> f64 {
+pub(super) fn v(state: &State<Named>, name: &str) -> f64 {
     state.v.get(name).expect("a coordinate")
 }
 
 /// A block on a rail between two stops.
-const BLOCK_AND_STOP: &str = "machine BlockAndStop in plane {
+pub(super) const BLOCK_AND_STOP: &str = "machine BlockAndStop in plane {
     parameters { m: kg = 2, L: m = 1, mu: 1 = 0.2, mu0: 1 = 0.25, e: 1 = 0.7, g: m/s^2 = 9.81, v0: m/s = 3 }
     coordinates { x: m, der(x): m/s = v0 }
     frames { seat = ground.shift(x, 0) }
@@ -134,7 +140,7 @@ fn a_guided_block_is_braked_rebounds_and_stops() {
 }
 
 /// A block on a rail that hits a wall which stands obliquely: its normal has the angle `slope` to the normal of the rail.
-const OBLIQUE: &str = "machine Oblique in plane {
+pub(super) const OBLIQUE: &str = "machine Oblique in plane {
     parameters { m: kg = 2, L: m = 1, mu: 1 = 0.2, e: 1 = 0.7, g: m/s^2 = 9.81, v0: m/s = 3, slope: rad = 2 }
     coordinates { x: m, der(x): m/s = v0 }
     frames { seat = ground.shift(x, 0), wall = ground.shift(L, 0).turn(slope) }
@@ -187,7 +193,7 @@ fn with_contact_far_away(text: &str, gap: &str) -> String {
     longer
 }
 
-fn of_library(name: &str) -> String {
+pub(super) fn of_library(name: &str) -> String {
     let path = format!("{}/../machines/{name}.machine", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(path).expect("a machine of the library")
 }
@@ -303,7 +309,7 @@ fn a_guide_without_friction_is_no_guide() {
 }
 
 /// A block that is held on its rail by its weight is a block on a floor: with a floor as a contact, which has no restitution, everything is the same, the impact
-/// with a wall that presses it down included, by each law that supports guides.
+/// with a wall that presses it down included, by each law of several contacts at once.
 #[test]
 fn a_guide_that_presses_to_one_side_is_a_contact() {
     let on_floor = "machine OnFloor in plane {
@@ -361,7 +367,7 @@ fn seed(default: u64) -> u64 {
 }
 
 /// A cart on a rail with a pendulum whose bob hits a wall, which stands at an angle.
-const PENDULUM_AND_WALL: &str = "machine PendulumAndWall in plane {
+pub(super) const PENDULUM_AND_WALL: &str = "machine PendulumAndWall in plane {
     parameters {
         M: kg = 2, m: kg = 1, l: m = 1, mu: 1 = 0.2, e: 1 = 0.5, g: m/s^2 = 9.81, L: m = 0.5, b: rad = 0.3,
         phi0: rad = -1.2, v0: m/s = 0,
@@ -453,7 +459,7 @@ fn impulses_on_a_cart_and_its_pendulum_are_those_by_hand() {
 }
 
 /// Runs a machine in which no impact and no friction creates energy, with its books closed, and counts its impacts.
-fn never_gains_energy(text: &str, settings: &[(&str, f64)], until: f64) -> usize {
+pub(super) fn never_gains_energy(text: &str, settings: &[(&str, f64)], until: f64) -> usize {
     let run = run_to(&machine(text, settings), until)
         .unwrap_or_else(|error| panic!("{error} {settings:?}"));
     is_booked(&run);
@@ -569,36 +575,6 @@ fn impacts_in_sequence_load_the_guide_each() {
     let other = run(&machine(&PENDULUM_AND_WALL.replace("LAW", ""), &[]), 1.0);
     assert!(!one.contact_events().is_empty());
     assert_near(q(one.end(), "x"), q(other.end(), "x"), 1e-10);
-}
-
-/// What guides beside contacts do not support is refused, with what to do.
-#[test]
-fn what_guides_beside_contacts_do_not_support_is_refused() {
-    let machine = machine(BLOCK_AND_STOP, &[]);
-    let stepped = Simulation::new(&machine)
-        .method(Method::named("moreau").expect("a method"))
-        .longest_step(1e-3)
-        .until(1.0)
-        .run(machine.start());
-    let Err(Error::Contact {
-        contact,
-        trouble: ContactTrouble::GuideNotStepped,
-        ..
-    }) = stepped
-    else {
-        panic!("{:?}", stepped.map(|run| run.end().t));
-    };
-    assert_eq!(contact, "rail");
-    for (law, word) in [
-        ("stronge", "`law: stronge` does not support `sliding`"),
-        ("poisson", "Routh"),
-    ] {
-        let text = BLOCK_AND_STOP.replace("restitution: e", &format!("restitution: e, law: {law}"));
-        let Err(error) = InterpretedMachine::from_text(text).build() else {
-            panic!("{law} is refused");
-        };
-        assert!(error.to_string().contains(word), "{error}");
-    }
 }
 
 /// A block that rests at an oblique wall: how much wall and rail hold of each other is undetermined, and the block is held as long as some of it permits. A force that
@@ -838,7 +814,7 @@ fn random_carts_at_stops_do_the_same_by_each_method() {
 }
 
 /// A slide on an arm that turns on a carriage: two guides, of which one carries the other, and five contacts.
-const LINKAGE: &str = "machine Linkage in plane {
+pub(super) const LINKAGE: &str = "machine Linkage in plane {
     parameters { m: kg = 2, mu: 1 = 0.3, g: m/s^2 = 9.81, v0: m/s = 2, h: m = 0.1, e: 1 = 0.3, phi0: rad = 0.3, s0: m = 0.5 }
     coordinates { x: m, der(x): m/s = v0, phi: rad = phi0, s: m = s0 }
     frames { seat = ground.shift(x, 0), arm = seat.turn(phi), tip = arm.shift(s, 0) }

@@ -10,6 +10,8 @@ mod flights;
 mod formulations;
 mod friction;
 mod guides_and_contacts;
+mod guides_in_time_steps;
+mod guides_on_paths;
 mod in_pieces;
 mod known_runs;
 mod library;

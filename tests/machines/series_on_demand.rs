@@ -212,7 +212,7 @@ fn the_more_runs_share_a_derivation_the_earlier_they_go_by_series() {
         (many.end(), many.statistics().steps),
         (given.end(), given.statistics().steps)
     );
-    // The same as with a series that is there from the start.
+    // The series was derived once.
     assert_eq!(count.load(Ordering::Relaxed), 1);
     assert!(many.statistics().evaluations < alone.statistics().evaluations / 4);
 }

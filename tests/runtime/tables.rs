@@ -115,7 +115,7 @@ fn a_mass_under_a_force_on_straight_lines_moves_on_cubics() {
             balance.residual().abs() < 10.0 * rounding,
             "{name} {balance:?}"
         );
-        // The same backward.
+        // The run backward in time.
         let back = Simulation::new(&mass)
             .method(method)
             .tolerance(1e-4)

@@ -1,6 +1,7 @@
-//! Compiles `machines/` into the files of `generated/`, and lists sources; a test compares these with the committed files.
+//! Compiles `machines/` into the files of `generated/`, writes the methods of quantities, and lists sources; a test compares these with the committed files.
 
 pub mod api;
+mod methods;
 pub mod modules;
 mod sources;
 
@@ -9,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use lagrangian_emit::rust;
 use lagrangian_mechanics::Compiled;
-use lagrangian_program::quantity::{Extent, ItemKind, Needs, Role, Row};
+use lagrangian_program::quantity::{Extent, ItemKind, Needs, QuantityRow, Role};
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
@@ -93,6 +94,7 @@ pub fn generate(root: &Path) -> Result<Vec<Generated>, String> {
         path: Path::new("docs").join("quantities.md"),
         text: quantities(),
     });
+    files.extend(methods::sources(root)?);
     files.extend(sources::lists(root)?);
     files.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(files)
@@ -197,7 +199,7 @@ fn quantities() -> String {
          | --- | --- | --- | --- | --- | --- | --- |\n",
     );
     for role in Role::all() {
-        let Row {
+        let QuantityRow {
             name,
             symbol,
             extent,

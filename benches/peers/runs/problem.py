@@ -12,7 +12,7 @@ sys.path.insert(0, str(REFERENCES))
 from equations import PROBLEMS  # noqa: E402
 
 # Unrolled code for these takes minutes to compile.
-COMPACT = ("andrews_squeezer", "closed_pendulum")
+COMPACT = ("andrews_squeezer", "closed_pendulum", "chain_16")
 # Of these all forms but one are simplified by hand (motions.py).
 BY_HAND = {
     "double_pendulum_regular": lambda motions, of: motions.pendulum(of),

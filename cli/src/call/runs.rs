@@ -197,7 +197,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// The same of the zero of a function.
+    /// The crossing of zero, of a function, in this direction.
     pub fn crossing(self) -> Crossing {
         match self {
             Direction::Up => Crossing::Rising,

@@ -224,7 +224,7 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
 }
 
 impl Row {
-    /// The same variable with a start value that is exact.
+    /// This variable with a start value that is exact.
     fn starting_at(self, start: f64) -> Row {
         Row {
             initial: "exact",

@@ -1,7 +1,7 @@
 //! A model as named arrays, independent of the file format.
 
 use lagrangian_linear::DMatrix;
-use lagrangian_linear::model::{Label, Model};
+use lagrangian_linear::model::{Label, LinearModel};
 
 /// A named array.
 pub struct Array {
@@ -22,7 +22,7 @@ pub fn names(labels: &[Label]) -> Vec<String> {
 }
 
 /// The arrays in `.npz` and `.mat` files.
-pub fn arrays(model: &Model) -> Vec<Array> {
+pub fn arrays(model: &LinearModel) -> Vec<Array> {
     let matrix = |name, matrix: &DMatrix<f64>| Array {
         name,
         content: Content::Matrix(matrix.clone()),

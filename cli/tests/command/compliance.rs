@@ -321,3 +321,113 @@ fn mistakes_in_laws_of_force_are_told() {
         assert!(text.contains(said), "{field}: {text}");
     }
 }
+
+/// Friction acts on both bodies at one place, however deep one is in the other: it changes neither their momentum nor their angular
+/// momentum together, and does not depend on which of two circles the contact names first.
+#[test]
+fn friction_of_what_yields_keeps_the_angular_momentum() {
+    let discs = |first: &str, on: &str, second: &str, big: f64, far: f64| {
+        let text = format!(
+            "machine Discs in plane {{
+                parameters {{ r: m = 0.1, R: m = {big:?}, m: kg = 1, M: kg = 2, j: kg*m^2 = 0.005, J: kg*m^2 = 0.02, k: N/m = 1e4 }}
+                coordinates {{
+                    x: m = -{far:?}, y: m = 0.05, a: rad, X: m = {far:?}, Y: m, A: rad,
+                    der(x): m/s = 3, der(a): rad/s = 20, der(X): m/s = -1,
+                }}
+                bodies {{
+                    one {{ mass: m, inertia: j, at: (x, y), angle: a }},
+                    two {{ mass: M, inertia: J, at: (X, Y), angle: A }},
+                }}
+                circles {{ rim {{ on: one, center: (0, 0), radius: r }}, bore {{ on: two, center: (0, 0), radius: R }} }}
+                gravity none;
+                contacts {{ touch {{ circle: {first}, {on}: {second}, compliance: linear(k, 0), friction: 0.4 }} }}
+            }}"
+        );
+        let spec = Scratch::new("discs.machine", &text);
+        let run = simulate(spec.path(), 0.5, &[]);
+        is_good(&run);
+        assert!(!events(&run, "opens").is_empty());
+        assert!(
+            number(&run["unilateral_contacts"][0]["friction_loss"]) > 0.01,
+            "{run:#}"
+        );
+        run
+    };
+    let last = |run: &Value| {
+        let [q, v] =
+            ["q", "v"].map(|of| ["x", "y", "a", "X", "Y", "A"].map(|name| number(&run[of][name])));
+        (q, v)
+    };
+    let angular_momentum = |run: &Value| {
+        let (q, v) = last(run);
+        q[0] * v[1] - q[1] * v[0] + 2.0 * (q[3] * v[4] - q[4] * v[3]) + 0.005 * v[2] + 0.02 * v[5]
+    };
+    let outside = discs("rim", "outside", "bore", 0.15, 0.3);
+    // −m y ẋ + j ȧ at the start.
+    close(angular_momentum(&outside), -0.05, 1e-11);
+    let exchanged = discs("bore", "outside", "rim", 0.15, 0.3);
+    let pairs = last(&outside).0.into_iter().zip(last(&exchanged).0);
+    for (one, other) in pairs {
+        close(one, other, 1e-12);
+    }
+    close(
+        angular_momentum(&discs("rim", "inside", "bore", 0.5, 0.0)),
+        -0.05,
+        1e-11,
+    );
+}
+
+/// The same for balls in space, whose axes of spin have no particular direction.
+#[test]
+fn friction_of_balls_that_yield_keeps_their_angular_momentum() {
+    for (on, big, far) in [("outside", 0.15, 0.3), ("inside", 0.5, 0.0)] {
+        let text = format!(
+            "machine Balls in space {{
+                parameters {{ r: m = 0.1, R: m = {big:?}, m: kg = 1, M: kg = 2, j: kg*m^2 = 0.005, J: kg*m^2 = 0.02, K: N/m^(3/2) = 1e5 }}
+                coordinates {{
+                    x: m = -{far:?}, y: m = 0.05, z: m = 0.02, a: rad = 0.1, b: rad = 0.2, c: rad,
+                    X: m = {far:?}, Y: m, Z: m, A: rad = 0.1, B: rad = 0.3, C: rad,
+                    der(x): m/s = 3, der(c): rad/s = 20, der(b): rad/s = 5, der(X): m/s = -1, der(A): rad/s = 3,
+                }}
+                frames {{
+                    f = ground.shift(x, y, z).turn(z, a).turn(y, b).turn(z, c),
+                    F = ground.shift(X, Y, Z).turn(x, A).turn(y, B).turn(z, C),
+                }}
+                bodies {{ one {{ mass: m, inertia: (j, j, j), frame: f }}, two {{ mass: M, inertia: (J, J, J), frame: F }} }}
+                spheres {{ ball {{ on: one, center: (0, 0, 0), radius: r }}, bore {{ on: two, center: (0, 0, 0), radius: R }} }}
+                gravity none;
+                contacts {{ touch {{ sphere: ball, {on}: bore, compliance: hertz(K), friction: 0.4 }} }}
+                define {{ L = m*cross(one.at, der(one.at)) + M*cross(two.at, der(two.at)) + j*f.spin + J*F.spin }}
+                outputs {{
+                    Lx: N*m*s = dot(L, (1, 0, 0)), Ly: N*m*s = dot(L, (0, 1, 0)), Lz: N*m*s = dot(L, (0, 0, 1)),
+                }}
+            }}"
+        );
+        let spec = Scratch::new("balls.machine", &text);
+        let table = Scratch::new("balls.csv", "");
+        let output = lagrangian(&[
+            "simulate",
+            spec.path(),
+            "--until",
+            "0.4",
+            "--tolerance",
+            "1e-13",
+            "--every",
+            "0.4",
+            "--out",
+            table.path(),
+            "--json",
+        ]);
+        let run: Value = serde_json::from_slice(&output.stdout).expect("a document");
+        is_good(&run);
+        assert!(!events(&run, "closes").is_empty());
+        let rows = std::fs::read_to_string(table.path()).expect("a table");
+        let rows: Vec<Vec<&str>> = rows.lines().map(|row| row.split(',').collect()).collect();
+        let value = |row: usize, column: usize| rows[row][column].parse::<f64>().expect("a number");
+        for name in ["Lx", "Ly", "Lz"] {
+            let column = rows[0].iter().position(|head| head.starts_with(name));
+            let column = column.expect("an output");
+            close(value(2, column), value(1, column), 1e-11);
+        }
+    }
+}

@@ -67,7 +67,7 @@ fn a_cue_ball_slips_along_a_parabola_until_it_rolls() {
     }
 }
 
-/// The same by time stepping, up to the error of its steps, which is of at least first order: halved if the step is halved.
+/// A cue ball in time stepping has this motion up to the error of its steps, which is of at least first order: halved if the step is halved.
 #[test]
 fn by_time_stepping_a_cue_ball_rolls_at_the_same_rates() {
     let (r, v, w) = (0.03075, [2.0, 0.0], [40.0, -30.0]);
@@ -374,7 +374,7 @@ fn a_ball_in_a_turning_bowl_rolls_as_by_its_constraints() {
     }
 }
 
-/// The same for a coin, whose point of contact is given by expressions.
+/// A coin on a surface with friction rolls as by constraints, too; its point of contact is given by expressions.
 #[test]
 fn a_coin_that_does_not_slip_rolls_as_by_its_constraints() {
     let rolls = run("machines/rolling_coin.machine", 1.0, &[]);

@@ -150,7 +150,7 @@ fn number(k: usize) -> f64 {
     ((k * 37 + 11) % 101) as f64 / 101.0
 }
 
-/// The same for any spec; parameters and inputs are identified by their index.
+/// Checks the library of any spec; parameters and inputs are identified by their index.
 fn check_of(
     folder: &Folder,
     spec: &Path,

@@ -103,6 +103,28 @@ fn what_cannot_be_drawn_is_said() {
     );
 }
 
+/// Spreadsheets write a mark before the first name, and other separators than commas.
+#[test]
+fn tables_that_other_programs_wrote_are_read_or_named() {
+    let text = "run,a,status,error,b\n0,1,ended,,2\n1,2,ended,,3\n";
+    let marked = Scratch::new("marked.csv", &format!("\u{feff}{text}"));
+    let (status, svg, error) = map(&marked, &["--of", "b"]);
+    assert_eq!(status, 0, "{error}");
+    assert!(svg.contains("<svg"), "{svg}");
+    for (separator, name) in [("\t", "tabs"), (";", "semicolons")] {
+        let table = Scratch::new("separated.csv", &text.replace(',', separator));
+        let (status, _, error) = map(&table, &["--of", "b"]);
+        let words = format!("separated by commas, not by {name}");
+        assert!(status == 2 && error.contains(&words), "{error}");
+    }
+    let table = Scratch::new("short.csv", &text.replace("ended,,3", "ended"));
+    let (status, _, error) = map(&table, &["--of", "b"]);
+    assert!(
+        status == 2 && error.contains("row 2 does not have"),
+        "{error}"
+    );
+}
+
 #[test]
 fn many_cells_are_one_image() {
     let side = 150;

@@ -309,3 +309,24 @@ fn a_hidden_unit_is_told_with_another_one() {
     let (status, error) = call(&[&simulate[..], &["push=-0.008*N/mm*x"]].concat());
     assert_eq!(status, 0, "{error}");
 }
+
+/// A name that is not UTF-8 cannot be written in messages and in `extends`; the file exists, and is not said to be missing.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_spec_whose_name_is_not_text_is_refused_for_it() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+
+    let spec = Scratch::new("pendulum.machine", PENDULUM);
+    let name = spec.0.with_file_name(OsStr::from_bytes(b"p\xff.machine"));
+    std::fs::copy(&spec.0, &name).expect("a copy");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_lagrangian"))
+        .arg("check")
+        .arg(&name)
+        .output()
+        .expect("the command runs");
+    std::fs::remove_file(&name).expect("the copy");
+    let error = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains("must be UTF-8"), "{error}");
+}

@@ -416,7 +416,7 @@ fn sections_are_where_the_closed_form_has_them() {
     for (k, t) in times.iter().enumerate() {
         assert!((t - first - k as f64 * TAU / omega).abs() < 1e-9, "{t}");
     }
-    // The same from a table, with the accuracy of cubics, and at a nonzero value.
+    // The motion with the signal of a table, with the accuracy of cubics, and at a nonzero value.
     let rows = (0..=2500)
         .map(|k| 0.002 * f64::from(k))
         .map(|t| vec![t, oscillation(t, 0.2, STIFFNESS)]);

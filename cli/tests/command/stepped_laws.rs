@@ -58,7 +58,7 @@ fn static_friction_holds_what_rests_or_comes_to_rest() {
     close(number(&from_rest["v"]["x"]), -down, 1e-12);
 }
 
-/// The same in space, where the block slides and is held in whatever direction.
+/// In space the block slides and is held in whatever direction.
 #[test]
 fn static_friction_holds_in_space() {
     let spec = Scratch::new(

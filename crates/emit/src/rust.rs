@@ -152,7 +152,7 @@ pub fn library(program: &Proved, options: &Options) -> Result<String, Unproved> 
         roles.extend(CONTACT_ROLES);
         roles.retain(|role| program.function(*role).is_some());
     }
-    let program = program.restricted(&roles)?;
+    let program = program.with_only(&roles)?;
     Ok(Emitter::new(&program, options).library())
 }
 

@@ -60,7 +60,7 @@ pub struct Label {
 
 /// A linear model of r states, m inputs and p outputs.
 #[derive(Clone, Debug)]
-pub struct Model {
+pub struct LinearModel {
     /// The coordinates at the operating point.
     pub q: Vec<f64>,
     /// The rates there.
@@ -245,7 +245,7 @@ pub fn along(
     machine: &InterpretedMachine,
     motion: &SteadyMotion,
     request: &Request,
-) -> Result<Model, NoModel> {
+) -> Result<LinearModel, NoModel> {
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
     let found = &motion.found;
@@ -306,7 +306,7 @@ pub fn about(
     machine: &InterpretedMachine,
     (t, q, v): (f64, &[f64], &[f64]),
     request: &Request,
-) -> Result<Model, NoModel> {
+) -> Result<LinearModel, NoModel> {
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
     let near = states(q, v);
@@ -470,7 +470,7 @@ impl<'a> NamedRequest<'a> {
         matrices: Matrices,
         bounds: Matrices,
         (q, v, u): (Vec<f64>, Vec<f64>, Vec<f64>),
-    ) -> Model {
+    ) -> LinearModel {
         let places = at.places();
         let names = places.iter().map(|j| self.coordinates[*j].clone());
         let rates = at.choice.independent.iter();
@@ -494,7 +494,7 @@ impl<'a> NamedRequest<'a> {
             drift,
             y,
         } = matrices;
-        Model {
+        LinearModel {
             y: y.iter().copied().collect(),
             drift: drift.iter().copied().collect(),
             is_reduced: states.len() + integrals < 2 * q.len(),

@@ -34,7 +34,7 @@ use std::fmt;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, Simulation, State, System};
-use lagrangian_program::{Op, Role, Source};
+use lagrangian_program::{Op, Source};
 use lagrangian_units::{rate_name, state_of};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -94,20 +94,7 @@ impl Sought {
 pub fn shifting(machine: &InterpretedMachine) -> Vec<bool> {
     let program = machine.program();
     let mut shifts = vec![true; program.dimension()];
-    let observes = |role: Role| {
-        matches!(
-            role,
-            Role::KineticEnergy
-                | Role::PotentialEnergy
-                | Role::StateEnergy
-                | Role::Dissipation
-                | Role::WorkRate
-                | Role::DissipationRate
-                | Role::Output(_)
-                | Role::Gradient(_)
-        )
-    };
-    for function in program.functions.iter().filter(|of| !observes(of.role)) {
+    for function in program.functions.iter().filter(|of| !of.role.is_observed()) {
         for op in &function.code {
             if let Op::Read(Source::Coordinate(k)) = op {
                 shifts[*k as usize] = false;

@@ -2,10 +2,10 @@
 
 use nalgebra::{Complex, DMatrix};
 
-use crate::model::Model;
+use crate::model::LinearModel;
 
 /// `G(iω)`, p × m, at an angular frequency in rad/s; `None` at a pole.
-pub fn response(model: &Model, omega: f64) -> Option<DMatrix<Complex<f64>>> {
+pub fn response(model: &LinearModel, omega: f64) -> Option<DMatrix<Complex<f64>>> {
     let n = model.a.nrows();
     let complex = |m: &DMatrix<f64>| m.map(|x| Complex::new(x, 0.0));
     let mut matrix = complex(&-&model.a);

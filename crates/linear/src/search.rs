@@ -75,7 +75,7 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// The same request with states of first order, which are the rates of these coordinates, added.
+    /// This request with states of first order, which are the rates of these coordinates, added.
     pub fn with_states(&self, integrals: &[bool]) -> Wanted {
         let mut wanted = self.clone();
         for (j, _) in integrals.iter().enumerate().filter(|(_, is)| **is) {

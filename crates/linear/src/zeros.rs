@@ -15,7 +15,7 @@ use lagrangian_eigen::poles::poles;
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix};
 
-use crate::model::Model;
+use crate::model::LinearModel;
 
 /// A singular value counts as nonzero if it exceeds this fraction of the size of its scaled matrix, times the dimension.
 const RANK: f64 = 256.0 * f64::EPSILON;
@@ -31,7 +31,7 @@ struct System {
 
 /// The zeros in 1/s, both of each conjugate pair; none without inputs or outputs. `None` where the iterations
 /// do not converge.
-pub fn zeros(model: &Model) -> Option<Vec<Complex<f64>>> {
+pub fn zeros(model: &LinearModel) -> Option<Vec<Complex<f64>>> {
     if model.b.ncols() == 0 || model.c.nrows() == 0 {
         return Some(Vec::new());
     }
@@ -66,7 +66,7 @@ impl Largest for DMatrix<f64> {
 impl System {
     /// The system with time, states, inputs and outputs scaled such that no number is large or small because of its unit;
     /// and the value in 1/s of a scaled rate of 1.
-    fn scaled(model: &Model) -> (System, f64) {
+    fn scaled(model: &LinearModel) -> (System, f64) {
         let mut a = model.a.clone();
         let n = a.nrows();
         let scales = match n {
@@ -181,7 +181,7 @@ mod tests {
     fn of(a: &[f64], b: &[f64], c: &[f64], d: &[f64]) -> Vec<Complex<f64>> {
         let n = a.len().isqrt();
         let (m, p) = (b.len() / n, c.len() / n);
-        let model = Model {
+        let model = LinearModel {
             q: Vec::new(),
             v: Vec::new(),
             u: Vec::new(),

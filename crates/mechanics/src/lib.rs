@@ -14,6 +14,7 @@ pub mod equations;
 pub mod formulas;
 pub mod lower;
 pub mod proof;
+mod quantities;
 pub mod series;
 mod states;
 
@@ -27,8 +28,9 @@ pub use equations::{
 };
 #[cfg(doc)]
 use lagrangian_program::Program;
-pub use lower::{Quantity, lower, lower_by, of_quantities, quantities};
+pub use lower::{lower, lower_by, of_quantities};
 pub use proof::disagreement::Disagreement;
 pub use proof::symbolic::{POINTS, prove, prove_quantities};
 pub use proof::{Proved, STATES, Uncharted, Unproved, Witness, prove_charts};
+pub use quantities::{Quantity, quantities};
 pub use states::around_start;

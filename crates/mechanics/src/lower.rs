@@ -17,6 +17,7 @@ use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, reachable}
 use rustc_hash::FxHashMap;
 
 use crate::equations::UnilateralEquation;
+use crate::quantities::{Quantity, quantities, quantity};
 use crate::states::sources;
 use crate::{ConstraintEquation, Equations, Reduction, SlidingEquation, Unprojected};
 use accelerations::{is_mostly_formulas, ways_to_accelerations};
@@ -25,7 +26,6 @@ use chosen::ChosenFunctions;
 use lagrangian_program::EliminationStep;
 use lagrangian_program::choose::{Basis, Candidate, Choice, Form, best};
 use lagrangian_program::graph::{Graph, Id, Scaled};
-use lagrangian_program::quantity::Sizes;
 use lagrangian_program::schedule::prepared;
 use lagrangian_program::solve::System;
 use lagrangian_program::{Constraint, Function, Program, Role, Shape, Source, Unilateral};
@@ -35,17 +35,6 @@ use slots::{Slots, facts, name_of, start_name, start_values};
 /// The largest number of multiplications of an elimination that is written down: each becomes an
 /// instruction, and takes 2 kB until then. 115 fully coupled coordinates take this many.
 const MOST_MULTIPLICATIONS: usize = 250_000;
-
-/// A result that a function is to compute, by its role.
-#[derive(Clone, Debug)]
-pub struct Quantity<'d> {
-    /// Its role.
-    pub role: Role,
-    /// How the values are arranged.
-    pub shape: Shape,
-    /// The values, [`Shape::len`] of them, over the symbols of the model.
-    pub values: Vec<Expr<'d>>,
-}
 
 /// Lowers a machine to its program: every function of [`Role`], each in the cheapest known form.
 pub fn lower<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Program {
@@ -300,93 +289,6 @@ impl<'a, 'd> LoweringInput<'a, 'd> {
             _ => (Basis::Derived, self.quantities),
         }
     }
-}
-
-/// The quantities of a machine, in the order of [`Role`]; accelerations follow from them.
-pub fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
-    let outputs = (0..equations.outputs.len()).map(Role::Output);
-    let facts = (0..model.assumptions.len()).map(Role::Assumption);
-    let own = Role::all().filter(|role| !matches!(role, Role::Output(_) | Role::Assumption(_)));
-    let roles = own.chain(outputs).chain(facts);
-    roles
-        .filter_map(|role| quantity(model, equations, role))
-        .collect()
-}
-
-/// A quantity as expressions; `None` if the machine does not have it, or if it follows from others.
-fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Option<Quantity<'d>> {
-    let sizes = Sizes {
-        coordinates: model.coordinates.len(),
-        constraints: equations.constraints.len(),
-        contacts: equations.sliding.len(),
-        reaction_axes: model.space.reaction_axes(),
-        unilateral: equations.unilateral.len(),
-        faces: (equations.unilateral.iter())
-            .filter(|u| u.face.is_some())
-            .count(),
-        guides: equations.guides.len(),
-        derivatives: model.derivatives.len(),
-        stores: model.energies_of_states().next().is_some(),
-    };
-    if !role.row().needs.are_met(sizes) {
-        return None;
-    }
-    let (constraints, sliding) = (equations.constraints.iter(), equations.sliding.iter());
-    let unilateral = &equations.unilateral;
-    let directions = unilateral.iter().flat_map(|u| &u.directions);
-    let zero = model.dag.zero();
-    let values = match role {
-        Role::MassMatrix => equations.mass_matrix.lower().to_vec(),
-        Role::Bias => equations.bias.clone(),
-        Role::Applied => equations.applied.clone(),
-        Role::Forces => equations.forces.clone(),
-        Role::KineticEnergy => vec![equations.kinetic_energy],
-        Role::PotentialEnergy => vec![equations.potential_energy],
-        Role::StateEnergy => vec![equations.state_energy],
-        Role::Dissipation => vec![equations.dissipation],
-        Role::WorkRate => vec![equations.work_rate],
-        Role::DissipationRate => vec![equations.dissipation_rate],
-        Role::ConstraintPositions => constraints.map(|c| c.position.unwrap_or(zero)).collect(),
-        Role::ConstraintRates => constraints.map(|c| c.rate).collect(),
-        Role::ConstraintMatrix => constraints.flat_map(|c| c.row.iter().copied()).collect(),
-        Role::ConstraintBias => constraints.map(|c| c.bias).collect(),
-        Role::Slips => sliding.map(|s| s.slip).collect(),
-        Role::SlipMatrix => sliding.flat_map(|s| s.row.iter().copied()).collect(),
-        Role::SlipBias => sliding.map(|s| s.bias).collect(),
-        Role::Gaps => unilateral.iter().map(|u| u.gap).collect(),
-        Role::ContactFaces => unilateral.iter().filter_map(|u| u.face).flatten().collect(),
-        Role::ContactRates => directions.map(|d| d.rate).collect(),
-        Role::ContactMatrix => directions.flat_map(|d| d.row.iter().copied()).collect(),
-        Role::ContactBias => directions.map(|d| d.bias).collect(),
-        Role::ContactCoefficients => unilateral.iter().flat_map(|u| u.coefficients).collect(),
-        Role::GuideMatrix => (equations.guides.iter())
-            .flat_map(|reaction| reaction.coefficients())
-            .collect(),
-        Role::GuideLoads => (equations.guides.iter())
-            .map(|reaction| reaction.load)
-            .collect(),
-        Role::Output(index) => vec![equations.outputs[index]],
-        Role::Assumption(index) => vec![model.assumptions[index].excess],
-        // These are found by elimination, or are not expressions of the equations.
-        Role::Prepare
-        | Role::Start
-        | Role::Accelerations
-        | Role::Multipliers
-        | Role::Projection
-        | Role::Friction
-        | Role::Derivatives
-        | Role::Adjoint
-        | Role::Gradient(_)
-        | Role::ContactPart(_)
-        | Role::AtTime
-        | Role::AtPosition
-        | Role::AccelerationsAt => return None,
-    };
-    Some(Quantity {
-        role,
-        shape: role.row().extent.shape(sizes)?,
-        values,
-    })
 }
 
 /// The description of a constraint in the program.

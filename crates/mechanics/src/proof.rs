@@ -57,7 +57,6 @@ use crate::proof::symbolic::with_guarded_values;
 use crate::{Dependent, Equations};
 use crate::{Disagreement, POINTS};
 pub use charts::{Uncharted, prove_charts};
-use lagrangian_program::quantity::Use;
 use lagrangian_program::{
     Arguments, Function as PlannedFunction, Interpreter, Op, Program, Role, Shape,
 };
@@ -115,12 +114,12 @@ impl Proved {
         }
     }
 
-    /// This program with some of its functions, as [`Program::restricted`]; proved to give the same values as here.
+    /// This program with some of its functions, as [`Program::with_only`]; proved to give the same values as here.
     ///
     /// # Errors
     /// If it gives other values.
-    pub fn restricted(&self, roles: &[Role]) -> Result<Proved, Unproved> {
-        let part = self.0.restricted(roles);
+    pub fn with_only(&self, roles: &[Role]) -> Result<Proved, Unproved> {
+        let part = self.0.with_only(roles);
         for &role in roles {
             if let Err(disagreement) = same_results(&self.0, &part, role) {
                 return Err(Unproved {
@@ -388,7 +387,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let parameters = vec![R::ONE; program.parameters.len()];
         let slopes = (!program.derivatives.is_empty()).then(|| {
             let parameters = vec![Dual::<R>::ONE; program.parameters.len()];
-            Interpreter::new(&program.restricted(&[Role::Accelerations]), &parameters)
+            Interpreter::new(&program.with_only(&[Role::Accelerations]), &parameters)
         });
         Prover {
             interpreter: Interpreter::new(program, &parameters),
@@ -450,8 +449,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             return ComparisonResult::Wrong(Disagreement::NotCompared { role });
         }
         let is_covered = |role: Role| {
-            self.compared.contains(&role)
-                || (role.row().called != Use::Seldom && !self.has_had_accelerations)
+            self.compared.contains(&role) || (role.is_fast() && !self.has_had_accelerations)
         };
         let functions = self.parts.program.functions.iter();
         match functions.map(|f| f.role).find(|role| !is_covered(*role)) {
@@ -509,6 +507,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let n = machine.model.coordinates.len();
         let w = self.random_numbers(1, n);
         let literal = machine.at(&state, &w);
+        self.check_values(&state, &literal)?;
         let computed = self.computed(&state)?;
         self.check_dynamics(&state, &w, &literal, &computed)?;
         self.check_constraints(&state, &w, &literal, &computed)?;

@@ -211,13 +211,15 @@ fn forces_of_contacts<'s, R: Number>(
             contact,
             is_carried,
         } = contact?;
-        if !is_carried {
+        if *state == ContactState::SticksAlongTangent {
+            normal = zero;
+        } else if !is_carried {
             normal = multipliers.next()?;
             forces = forces + normal * contact.gap.along;
             vanishing.push(contact.gap.acceleration);
         }
         let tangential = match *state {
-            ContactState::Sticks => {
+            ContactState::Sticks | ContactState::SticksAlongTangent => {
                 vanishing.push(contact.slip.acceleration);
                 multipliers.next()?
             }
@@ -225,7 +227,7 @@ fn forces_of_contacts<'s, R: Number>(
                 let sign = Jet::constant(R::from_ratio(-i64::from(sign), 1));
                 sign * contact.coefficients[2] * normal
             }
-            ContactState::Open => zero,
+            ContactState::Open | ContactState::SticksAlongNormal => zero,
         };
         forces = forces + tangential * contact.slip.along;
     }

@@ -2,8 +2,10 @@
 //!
 //! A row gives the name of a quantity, its symbol in formulas, the arrangement of its numbers
 //! and the arguments that it may depend on. Emitters, the interpreter, the listing, proofs
-//! and `docs/quantities.md` read these rows. A new quantity is one row here and its
-//! expressions in `lagrangian_mechanics::quantities`.
+//! and `docs/quantities.md` read these rows, and `cargo xtask generate` writes the methods of the
+//! trait `System`, their documentation, and how interpreted machines and wrappers implement them.
+//! A new quantity is one row here, and one file in `crates/mechanics/src/quantities/` with its
+//! expressions and what proves them.
 
 use super::{FrictionLayout, Program, Shape};
 use lagrangian_units::Variable;
@@ -123,6 +125,8 @@ impl Needs {
 pub enum Use {
     /// Called now and then; if all its results are zero, the function does not exist.
     Seldom,
+    /// Called as seldom, to observe a motion: no motion depends on it.
+    Observed,
     /// Called at every stage of a step: it uses all instructions that the processor has.
     Often,
     /// Called as often, and solves for accelerations: it has no value if the mass matrix
@@ -130,9 +134,33 @@ pub enum Use {
     Solves,
 }
 
+/// The implementation that the trait `System` of the runtime has of the method for a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DefaultMethod {
+    /// The numbers are unknown: NaN.
+    Unknown,
+    /// The number is 0.
+    Zero,
+    /// It writes nothing: a machine without the items has no numbers of them.
+    Nothing,
+    /// The numbers of single contacts, one contact after the other; the variant of `ContactQuantity` in the runtime.
+    OfContacts(&'static str),
+    /// The trait itself has it, since it is computed from other quantities.
+    Written,
+}
+
+/// The method of the trait `System` that a quantity is. `cargo xtask generate` writes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Method {
+    /// Its implementation in the trait.
+    pub default: DefaultMethod,
+    /// What its documentation states after the sentences of the row, as lines of Markdown.
+    pub remarks: &'static [&'static str],
+}
+
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct QuantityRow {
     /// The name of its function.
     pub name: &'static str,
     /// Its symbol in formulas, ASCII; empty if it has none.
@@ -151,6 +179,8 @@ pub struct Row {
     pub equation: &'static str,
     /// Its description, with units: a sentence in ASCII, symbols between backticks.
     pub docs: &'static str,
+    /// The method of `System` that it is, if it is one that is generated.
+    pub method: Option<Method>,
 }
 
 /// The numbers of items of a machine.
@@ -176,12 +206,20 @@ pub struct Sizes {
     pub stores: bool,
 }
 
+/// The method of a row, of which there is one or none.
+const fn only(methods: &[Method]) -> Option<Method> {
+    match methods {
+        [method] => Some(*method),
+        _ => None,
+    }
+}
+
 /// Writes the enumeration and the table from the same rows.
 macro_rules! quantities {
     ($($(#[doc = $docs:literal])+ $role:ident $(($index:ty))? => {
         $name:literal, $symbol:literal, $code:literal, $extent:expr, [$($of:ident)*], $needs:ident, $called:ident,
         $equation:literal
-    })+) => {
+    } $(System($default:expr) { $(#[doc = $remark:literal])* })?)+) => {
         /// What a function computes.
         ///
         /// The order is that of functions in a program.
@@ -192,10 +230,10 @@ macro_rules! quantities {
 
         impl Role {
             /// The row of the table.
-            pub fn row(self) -> &'static Row {
+            pub fn row(self) -> &'static QuantityRow {
                 match self {
                     $(Role::$role { .. } => {
-                        const ROW: &Row = &Row {
+                        const ROW: &QuantityRow = &QuantityRow {
                             name: $name,
                             symbol: $symbol,
                             code: $code,
@@ -205,6 +243,10 @@ macro_rules! quantities {
                             called: Use::$called,
                             equation: $equation,
                             docs: concat!($($docs),+),
+                            method: only(&[$(Method {
+                                default: $default,
+                                remarks: &[$($remark),*],
+                            })?]),
                         };
                         ROW
                     })+
@@ -219,6 +261,7 @@ macro_rules! quantities {
     };
 }
 
+use DefaultMethod::{Nothing, OfContacts, Unknown, Written, Zero};
 use Extent::{Chosen, Differentials, Each, Number, Responses, Rows, State, Symmetric};
 use ItemKind::{
     Coefficient, Constraint, Contact, Coordinate, Direction, Face, Guide, OnGuide, Unilateral,
@@ -230,33 +273,53 @@ quantities! {
     /// The coordinates at the start, followed by their rates if any of these is not 0.
     Start => { "start", "", "s*", State, [], Nothing, Seldom, "" }
     /// Mass matrix `M`.
-    MassMatrix => { "mass_matrix", "M", "m*", Symmetric(Coordinate), [Time Coordinates], Nothing, Seldom, "E4" }
+    MassMatrix => {
+        "mass_matrix", "M", "m*", Symmetric(Coordinate), [Time Coordinates], Nothing, Seldom, "E4"
+    } System(Unknown) {
+        /// It is written in full, row after row. By default unknown: NaN.
+        ///
+        /// Needed for constraints, for contacts and wherever the equations are used without being solved.
+    }
     /// Bias `h`: velocity products and explicit time in the inertia forces.
-    Bias => { "bias", "h", "h_*", Each(Coordinate), [Time Coordinates Velocities], Nothing, Seldom, "E5" }
+    Bias => {
+        "bias", "h", "h_*", Each(Coordinate), [Time Coordinates Velocities], Nothing, Seldom, "E5"
+    } System(Unknown) {
+        /// By default unknown: NaN.
+    }
     /// Applied generalized forces `Q`.
     Applied => {
         "applied", "Q", "q_*", Each(Coordinate), [Time Coordinates Velocities Inputs], Nothing, Seldom, "E6"
+    } System(Unknown) {
+        /// They are `−∂V/∂q − ∂D/∂v + …`. By default unknown: NaN.
     }
     /// Right-hand side `f = Q - h` of `M a = f`.
     Forces => {
         "forces", "f", "f_*", Each(Coordinate), [Time Coordinates Velocities Inputs], Nothing, Seldom, "E7"
-    }
+    } System(Written) {}
     /// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
     ConstraintPositions => {
         "constraint_positions", "g", "g*", Each(Constraint), [Time Coordinates], Constraints, Seldom, "E29"
+    } System(Nothing) {
+        /// There is one for each constraint, and all are 0 if the state satisfies the constraints.
     }
     /// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
     ConstraintRates => {
         "constraint_rates", "phi", "phi*", Each(Constraint), [Time Coordinates Velocities], Constraints, Seldom, "E29"
+    } System(Nothing) {
+        /// There is one for each constraint, and all are 0 if the state satisfies the constraints.
     }
     /// Constraint matrix `G`, the derivatives of `phi` by the rates.
     ConstraintMatrix => {
         "constraint_matrix", "G", "g*", Rows(Constraint, Coordinate), [Time Coordinates], Constraints, Seldom, "E30"
+    } System(Nothing) {
+        /// It is written row after row.
     }
     /// Right-hand side `gamma` of `G a = gamma`.
     ConstraintBias => {
         "constraint_bias", "gamma", "gamma*", Each(Constraint), [Time Coordinates Velocities], Constraints, Seldom,
         "E30"
+    } System(Nothing) {
+        /// It is the condition on the accelerations under which the rates of the constraints stay constant.
     }
     /// Accelerations `a`.
     Accelerations => {
@@ -273,13 +336,21 @@ quantities! {
         "projection", "", "r*", Chosen, [Time Coordinates Velocities], Request, Solves, "E31"
     }
     /// Slips `w` of the guided contacts, in m/s.
-    Slips => { "slips", "w", "w*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32" }
+    Slips => {
+        "slips", "w", "w*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32"
+    } System(Nothing) {
+        /// There is one for each contact, along its direction.
+    }
     /// Slip matrix `tau`, the derivatives of the slips by the rates.
-    SlipMatrix => { "slip_matrix", "tau", "tau*", Rows(Contact, Coordinate), [Time Coordinates], Contacts, Seldom, "E32" }
+    SlipMatrix => {
+        "slip_matrix", "tau", "tau*", Rows(Contact, Coordinate), [Time Coordinates], Contacts, Seldom, "E32"
+    } System(Nothing) {
+        /// It is written row after row.
+    }
     /// Rates `dw/dt` of the slips where all accelerations are 0.
     SlipBias => {
         "slip_bias", "sigma", "bias*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32"
-    }
+    } System(Nothing) {}
     /// Accelerations, multipliers, `dw/dt` and the normal reaction of each contact without friction, and the change of each
     /// by a unit of each friction force; followed by the coefficients of friction. A machine with guided contacts has
     /// this in place of accelerations and multipliers.
@@ -287,37 +358,57 @@ quantities! {
         "friction", "", "r*", Responses, [Time Coordinates Velocities Inputs], Contacts, Solves, "E34"
     }
     /// Gaps `g` of the unilateral contacts, in m: positive where they are open.
-    Gaps => { "gaps", "", "gap*", Each(Unilateral), [Time Coordinates], Unilateral, Seldom, "E51" }
+    Gaps => {
+        "gaps", "", "gap*", Each(Unilateral), [Time Coordinates], Unilateral, Seldom, "E51"
+    } System(OfContacts("Gap")) {
+        ///
+        /// By default this, and each quantity of all contacts that follows, is that of [`of_contacts`](Self::of_contacts), one contact after the other, if
+        /// [`single_contacts`](Self::single_contacts) are known.
+    }
     /// Rates `gamma` at which the gaps of unilateral contacts open and at which these slip, in m/s.
     ContactRates => {
         "contact_rates", "", "rate*", Each(Direction), [Time Coordinates Velocities], Unilateral, Seldom, "E51"
+    } System(OfContacts("Rates")) {
+        /// There are two for each contact: `dg/dt`, at which its gap opens, and its slip rate.
     }
     /// Derivatives of the rates of unilateral contacts by the rates of the coordinates.
     ContactMatrix => {
         "contact_matrix", "", "w*", Rows(Direction, Coordinate), [Time Coordinates], Unilateral, Seldom, "E52"
+    } System(OfContacts("Rows")) {
+        /// They are written row after row, in the order of [`contact_rates`](Self::contact_rates).
     }
     /// Rates `dgamma/dt` of unilateral contacts where all accelerations are 0.
     ContactBias => {
         "contact_bias", "", "bias*", Each(Direction), [Time Coordinates Velocities], Unilateral, Seldom, "E53"
-    }
+    } System(OfContacts("Bias")) {}
     /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (for compliant contacts
     /// the parameters of their force), friction, static friction.
     ContactCoefficients => {
         "contact_coefficients", "", "c*", Each(Coefficient), [Time Coordinates Velocities], Unilateral, Seldom, ""
+    } System(OfContacts("Coefficients")) {
+        /// The law of a compliant contact is its [`Compliance`](crate::Compliance).
     }
     /// For each unilateral contact of a corner with a face of a polygon: the distance of the corner outside the face, and its
     /// distance beyond the ends of the face, negative between them, both in m; the rate of the second, in m/s.
     ContactFaces => {
         "contact_faces", "", "face*", Each(Face), [Time Coordinates Velocities], Faces, Seldom, "E77"
+    } System(OfContacts("Face")) {
+        /// There are three numbers for each contact that is [with a face](UnilateralContact::has_face). The [gap](Self::gaps) is the larger of the first two;
+        /// [rates](Self::contact_rates) are those of the face.
     }
     /// What a unit of each acceleration, of each multiplier, and of a force along each direction of the unilateral contacts adds to the
     /// normal reactions of guides beside these.
     GuideMatrix => {
         "guide_matrix", "", "n*", Rows(Guide, OnGuide), [Time Coordinates], Guides, Seldom, "E81"
+    } System(Nothing) {
+        /// For each guide its `ρ`, with a number for each coordinate, its `χ`, with one for each constraint, and its `κ`, with two for each
+        /// unilateral contact, along the normal and the tangent. There, the numbers for normals of guides are 0. [`guides`](Self::guides) defines these letters.
     }
     /// The normal reactions of guides beside unilateral contacts where all accelerations, multipliers and forces of contacts are 0, in N.
     GuideLoads => {
         "guide_loads", "", "nu*", Each(Guide), [Time Coordinates Velocities Inputs], Guides, Seldom, "E81"
+    } System(Nothing) {
+        /// They are the `ν` of [`guides`](Self::guides).
     }
     /// Accelerations `a` with their derivatives by each requested `x`, the solutions of
     /// `M da/dx = d(f - M a)/dx` with `a` held constant.
@@ -331,7 +422,7 @@ quantities! {
     }
     /// Derivatives of an output, by its index among the outputs, by coordinates, rates, parameters, inputs and accelerations.
     Gradient(usize) => {
-        "gradient", "", "g*", Chosen, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
+        "gradient", "", "g*", Chosen, [Time Coordinates Velocities Accelerations Inputs], Request, Observed, ""
     }
     /// Numbers of one unilateral contact, without those that are 0, with its arguments in place of the coordinates.
     ContactPart(usize) => {
@@ -346,24 +437,46 @@ quantities! {
         "accelerations_at", "a", "*_ddot", Each(Coordinate), [Time Coordinates Velocities Inputs], Request, Solves, "E7"
     }
     /// Kinetic energy `T`, in J.
-    KineticEnergy => { "kinetic_energy", "T", "", Number, [Time Coordinates Velocities], Nothing, Seldom, "E1" }
+    KineticEnergy => {
+        "kinetic_energy", "T", "", Number, [Time Coordinates Velocities], Nothing, Observed, "E1"
+    } System(Unknown) {
+        /// By default unknown, NaN, and then a run has no energy balance.
+    }
     /// Potential energy `V`, in J.
-    PotentialEnergy => { "potential_energy", "V", "", Number, [Time Coordinates Inputs], Nothing, Seldom, "E2" }
+    PotentialEnergy => {
+        "potential_energy", "V", "", Number, [Time Coordinates Inputs], Nothing, Observed, "E2"
+    } System(Unknown) {
+        /// By default unknown, NaN, and then a run has no energy balance.
+    }
     /// Energy `E` that states of first order store, in J.
-    StateEnergy => { "state_energy", "E", "", Number, [Time Coordinates Velocities], Stores, Seldom, "E59" }
+    StateEnergy => {
+        "state_energy", "E", "", Number, [Time Coordinates Velocities], Stores, Observed, "E59"
+    } System(Zero) {
+        /// It is known as far as the description states it; by default it is 0.
+    }
     /// Dissipation function `D`, in W.
-    Dissipation => { "dissipation", "D", "", Number, [Time Coordinates Velocities Inputs], Nothing, Seldom, "E3" }
+    Dissipation => {
+        "dissipation", "D", "", Number, [Time Coordinates Velocities Inputs], Nothing, Observed, "E3"
+    } System(Zero) {
+        /// It is that of Rayleigh. By default 0: nothing is damped.
+    }
     /// Power `P` supplied by drives, forces and inputs, in W.
     WorkRate => {
-        "work_rate", "P", "", Number, [Time Coordinates Velocities Accelerations Inputs], Nothing, Seldom, "E19"
+        "work_rate", "P", "", Number, [Time Coordinates Velocities Accelerations Inputs], Nothing, Observed, "E19"
+    } System(Zero) {
+        /// It is the power of everything that is neither in `T + V` nor in `D`: drives (explicit time), applied forces, inputs, moving constraints (`−λ·∂g/∂t`, with the
+        /// multipliers that belong to these accelerations), and the supply of first-order states that store energy. Along every motion
+        /// `d(T + V + E)/dt = work_rate − dissipation_rate`. By default 0; if that is wrong, the energy balance shows it.
     }
     /// Power `R` dissipated by dampers, in W.
     DissipationRate => {
-        "dissipation_rate", "R", "", Number, [Time Coordinates Velocities Inputs], Nothing, Seldom, "E18"
+        "dissipation_rate", "R", "", Number, [Time Coordinates Velocities Inputs], Nothing, Observed, "E18"
+    } System(Zero) {
+        /// It is `Σ vᵢ ∂D/∂vᵢ`, and the losses that the description names. By default 0.
     }
     /// A quantity to observe, by its index among the outputs.
     Output(usize) => {
-        "output", "", "", Number, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
+        "output", "", "", Number, [Time Coordinates Velocities Accelerations Inputs], Request, Observed, ""
     }
     /// The expression that an assumption states to be positive, by its index among the assumptions.
     Assumption(usize) => { "assumption", "", "", Number, [Time Coordinates Velocities Inputs], Request, Seldom, "" }
@@ -391,7 +504,12 @@ impl Role {
     /// Whether a function of this role is called so often that it should use all instructions that the
     /// processor has.
     pub fn is_fast(self) -> bool {
-        self.row().called != Use::Seldom
+        matches!(self.row().called, Use::Often | Use::Solves)
+    }
+
+    /// Whether functions of this role only observe a motion, which does not depend on them.
+    pub fn is_observed(self) -> bool {
+        self.row().called == Use::Observed
     }
 
     /// Whether the function exists even if all its results are zero.

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
-use super::restrict::without_unused;
+use super::selection::without_unused;
 use super::verify::check_prepared_operations;
 use super::{Function, Guard, Op, Program, Role, Source, Value};
 

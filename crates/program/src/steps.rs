@@ -37,7 +37,7 @@ impl EliminationStep {
         )
     }
 
-    /// The same step with other rows.
+    /// This step with the rows renumbered.
     #[must_use]
     pub fn with_rows(self, row: impl Fn(usize) -> usize) -> EliminationStep {
         match self {

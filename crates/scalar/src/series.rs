@@ -139,6 +139,21 @@ pub struct Vanished<N> {
     pub scale: N,
 }
 
+/// Checks that the pivot of a row, which is negative if the row is that of a constraint, is more than this part of the size of the terms whose sum it is.
+#[inline(always)]
+fn check_pivot<N: Scalar>(
+    row: usize,
+    is_constraint: bool,
+    [pivot, scale]: [N; 2],
+    tolerance: N,
+) -> Result<(), Vanished<N>> {
+    let pivot = if is_constraint { -pivot } else { pivot };
+    if pivot.exceeds(scale * tolerance) {
+        return Ok(());
+    }
+    Err(Vanished { row, pivot, scale })
+}
+
 /// Factors a symmetric matrix of `n` rows, given by its lower triangle, for [`solve`]. Rows from `held` on are those of
 /// constraints, whose pivots are negative.
 ///
@@ -185,14 +200,7 @@ pub fn factor<N: Scalar>(
             }
             m[i * n + j] = scaled.store();
         }
-        let left = if is_constraint { -pivot } else { pivot };
-        if !left.exceeds(scale * tolerance) {
-            return Err(Vanished {
-                row: i,
-                pivot: left,
-                scale,
-            });
-        }
+        check_pivot(i, is_constraint, [pivot, scale], tolerance)?;
         m[i * n + i] = (N::ONE / pivot).store();
     }
     if n <= MOST_INVERTED {
@@ -226,14 +234,7 @@ pub fn invert_unsymmetric<N: Scalar>(
     }
     for k in 0..n {
         let pivot = N::load(m[k * n + k]);
-        let (remaining, scale) = (if k >= held { -pivot } else { pivot }, scales[k]);
-        if !remaining.exceeds(scale * tolerance) {
-            return Err(Vanished {
-                row: k,
-                pivot: remaining,
-                scale,
-            });
-        }
+        check_pivot(k, k >= held, [pivot, scales[k]], tolerance)?;
         let reciprocal = N::ONE / pivot;
         for j in 0..n {
             if j != k {
@@ -337,15 +338,7 @@ fn factor_in_registers<N: Scalar, const P: usize>(
     for k in 0..n {
         let row = left[k];
         let pivot = N::load(row[k]);
-        let scale = N::load(scales[k]);
-        let remaining = if k >= held { -pivot } else { pivot };
-        if !remaining.exceeds(scale * tolerance) {
-            return Err(Vanished {
-                row: k,
-                pivot: remaining,
-                scale,
-            });
-        }
+        check_pivot(k, k >= held, [pivot, N::load(scales[k])], tolerance)?;
         let reciprocal = N::ONE / pivot;
         over[k] = reciprocal.store();
         let mut scaled = [zero; P];

@@ -323,7 +323,7 @@ impl Plan {
 }
 
 impl SpecText {
-    /// The same for the series of its machine, or of that in the other charts of the spec.
+    /// What the series of its machine is derived from, or of that in the other charts of the spec.
     ///
     /// # Errors
     /// As for [`constants`](Self::constants).

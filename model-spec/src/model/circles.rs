@@ -12,8 +12,20 @@ pub struct RelativeMotion<'d> {
     /// The distance between them, in m: 0 if they touch.
     pub gap: Expr<'d>,
     /// The velocity of the point of the first circle that is nearest to the other, relative to the
-    /// nearest point of the other, along the tangent.
+    /// nearest point of the other, along the tangent; of circles that yield, at their [`Meeting`].
     pub slip: Expr<'d>,
+}
+
+/// Where both bodies of a contact have the velocities whose difference is its slip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meeting {
+    /// Each at its own point that is nearest to the other. For bodies that touch without penetration this is one place.
+    Nearest,
+    /// Both at one place, also if they penetrate each other: friction at two places would be a couple as well, and would change the
+    /// angular momentum of both together. The place is the nearest point of the first circle or sphere; outside of another it divides
+    /// the line of centres in the ratio of the radii, so that it does not depend on which of them is the first. As a radius grows, or
+    /// vanishes, this becomes the nearest point of the other.
+    Common,
 }
 
 /// The centre of a circle and the axes of what it is fixed to, in ground axes.
@@ -110,6 +122,7 @@ pub fn contact_motion<'d>(
         model,
         &model.circles[touching.circle],
         touching.surface,
+        Meeting::Nearest,
         rate,
     )
 }
@@ -135,9 +148,10 @@ pub fn relative_motion<'d>(
     model: &Model<'d>,
     circle: &Circle<'d>,
     surface: Surface,
+    meeting: Meeting,
     rate: &mut Tangent<'d>,
 ) -> RelativeMotion<'d> {
-    match surface {
+    let nearest = match surface {
         Surface::Inside(other) => {
             relative_to_circle(model, [circle, &model.circles[other]], true, rate)
         }
@@ -145,6 +159,43 @@ pub fn relative_motion<'d>(
             relative_to_circle(model, [circle, &model.circles[other]], false, rate)
         }
         Surface::Along(pose) => relative_to_line(model, circle, pose, rate),
+    };
+    match meeting {
+        Meeting::Nearest => nearest,
+        Meeting::Common => {
+            let RelativeMotion { gap, slip } = nearest;
+            let slip = slip + gap * slip_by_gap(model, circle, surface, rate);
+            RelativeMotion { gap, slip }
+        }
+    }
+}
+
+/// What a gap adds to the slip if both bodies have their velocities at one place ([`Meeting::Common`]), for each metre of the gap.
+/// With angular velocities `ω` of the circle and `Ω` of what it touches, and radii `r` and `R`:
+///
+/// ```text
+/// along, inside    Ω
+/// outside          −(r ω + R Ω)/(r + R)
+/// ```
+fn slip_by_gap<'d>(
+    model: &Model<'d>,
+    circle: &Circle<'d>,
+    surface: Surface,
+    rate: &mut Tangent<'d>,
+) -> Expr<'d> {
+    match surface {
+        Surface::Along(pose) => rate.of(model.poses[pose.index()].angle),
+        Surface::Inside(other) => angular_velocity(model, &model.circles[other], rate),
+        Surface::Outside(other) => {
+            let other = &model.circles[other];
+            let [omega, omega_of_other] =
+                [circle, other].map(|circle| angular_velocity(model, circle, rate));
+            let both = circle.radius + other.radius;
+            if both.is_zero() {
+                return both;
+            }
+            -(circle.radius * omega + other.radius * omega_of_other) / both
+        }
     }
 }
 

@@ -4,14 +4,15 @@
 
 use lagrangian_symbolic::{Expr, Tangent};
 
-use super::circles::{centre_and_axes, difference, distance};
+use super::circles::{Meeting, centre_and_axes, difference, distance};
 use super::{Circle, FrameOrBody, Model, PoseId, Rotation, Surface};
 
 /// The position and motion of a sphere relative to what it touches.
 pub struct RelativeMotion<'d> {
     /// The distance between them, in m: 0 if they touch.
     pub gap: Expr<'d>,
-    /// The velocity of the nearest point of the sphere relative to the nearest point of the other body, along both tangents.
+    /// The velocity of the nearest point of the sphere relative to the nearest point of the other body, along both tangents; of
+    /// spheres that yield, at their [`Meeting`].
     pub slip: [Expr<'d>; 2],
 }
 
@@ -20,14 +21,17 @@ pub fn relative_motion<'d>(
     model: &Model<'d>,
     sphere: &Circle<'d>,
     surface: Surface,
+    meeting: Meeting,
     rate: &mut Tangent<'d>,
 ) -> RelativeMotion<'d> {
     match surface {
         Surface::Inside(other) => {
-            relative_to_sphere(model, [sphere, &model.circles[other]], true, rate)
+            let pair = [sphere, &model.circles[other]];
+            relative_to_sphere(model, pair, (true, meeting), rate)
         }
         Surface::Outside(other) => {
-            relative_to_sphere(model, [sphere, &model.circles[other]], false, rate)
+            let pair = [sphere, &model.circles[other]];
+            relative_to_sphere(model, pair, (false, meeting), rate)
         }
         Surface::Along(pose) => relative_to_plane(model, sphere, pose, rate),
     }
@@ -74,6 +78,8 @@ fn angular_velocity<'d>(
 /// ```text
 /// gap = c·n − r,    slip = ċ − r ω × n − Ω × (c − r n),  along e₁ and e₂
 /// ```
+///
+/// Both velocities are those at one place, whatever the [`Meeting`].
 fn relative_to_plane<'d>(
     model: &Model<'d>,
     sphere: &Circle<'d>,
@@ -108,11 +114,16 @@ fn relative_to_plane<'d>(
 /// outside   gap = d − r − R,    slip = ċ − (r ω + R Ω) × e
 /// ```
 ///
-/// along both [`tangents`] of the direction in which the gap opens.
+/// along both [`tangents`] of the direction in which the gap opens. Where both velocities are those at one place ([`Meeting::Common`]),
+///
+/// ```text
+/// inside    slip = ċ + (r ω − (R − gap) Ω) × e
+/// outside   slip = ċ − (r ω + R Ω) × e (1 + gap/(r + R))
+/// ```
 fn relative_to_sphere<'d>(
     model: &Model<'d>,
     [first, other]: [&Circle<'d>; 2],
-    is_inside: bool,
+    (is_inside, meeting): (bool, Meeting),
     rate: &mut Tangent<'d>,
 ) -> RelativeMotion<'d> {
     let centres = [first, other].map(|sphere| centre_and_axes(model, sphere).0);
@@ -124,7 +135,12 @@ fn relative_to_sphere<'d>(
     let direction: Vec<Expr<'d>> = line.iter().map(|&c| c / distance).collect();
     let velocity: Vec<Expr<'d>> = line.iter().map(|&c| rate.of(c)).collect();
     let [spin, of_other] = [first, other].map(|sphere| angular_velocity(model, sphere.on, rate));
-    let (r, big) = (first.radius, other.radius);
+    let gap = if is_inside {
+        other.radius - first.radius - distance
+    } else {
+        distance - first.radius - other.radius
+    };
+    let [r, big] = arms([first.radius, other.radius], gap, is_inside, meeting);
     let sign = if is_inside { 1 } else { -1 };
     let relative: Vec<Expr<'d>> = spin
         .iter()
@@ -135,12 +151,24 @@ fn relative_to_sphere<'d>(
     let slip: Vec<Expr<'d>> = velocity.iter().zip(&turned).map(|(&v, &t)| v + t).collect();
     let normal: Vec<Expr<'d>> = direction.iter().map(|&e| -e * sign).collect();
     RelativeMotion {
-        gap: if is_inside {
-            big - r - distance
-        } else {
-            distance - r - big
-        },
+        gap,
         slip: tangents(&normal).map(|tangent| dot(&tangent, &slip)),
+    }
+}
+
+/// The distances from both centres of the places at which the velocities of two spheres are compared.
+fn arms<'d>(
+    [r, big]: [Expr<'d>; 2],
+    gap: Expr<'d>,
+    is_inside: bool,
+    meeting: Meeting,
+) -> [Expr<'d>; 2] {
+    let both = r + big;
+    match meeting {
+        Meeting::Nearest => [r, big],
+        Meeting::Common if is_inside => [r, big - gap],
+        Meeting::Common if both.is_zero() => [r, big],
+        Meeting::Common => [r, big].map(|radius| radius + gap * radius / both),
     }
 }
 

@@ -1236,7 +1236,7 @@ fn a_number_that_would_be_a_quantity_if_its_name_were_a_unit_is_refused() {
     // Numbers of members, other orders of the factors, and numbers where the unit does not fit.
     for parts in [
         "forces { f { on: x[1], value: N*5 } }",
-        // The same either way.
+        // Both texts have the same meaning.
         "constants { kN = 1000 } forces { f { on: x[1], value: 5*kN } }",
         "outputs { last: m = x[2*N - 3], share: m = x[1]/N, count: 1 = 2*N, angle: rad = 2*pi/N }",
     ] {

@@ -88,20 +88,36 @@ impl Meeting {
         terms.map(|(g, impulse)| g * impulse).sum()
     }
 
-    /// These impulses, with the reactions of guides in place of what presses on their far sides.
-    fn with_reactions(&self, impulses: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        let mut all = impulses.to_vec();
+    /// Writes the reactions of guides in place of what presses on their far sides. `of_forces` are those to forces that act meanwhile, each times `G_nn` of its guide,
+    /// at the place of its normal.
+    pub fn write_reactions(&self, of_forces: &[f64], impulses: &mut [[f64; 2]]) {
+        if !self.guides.are_there() {
+            return;
+        }
         let width = self.directions.len();
         for (place, &k) in self.contacts.iter().enumerate() {
             if self.guides.has(k) {
                 let row = &self.g[2 * place * width..][..width];
                 let unit = row[2 * place];
+                // No reaction depends on the normal impulse of another guide.
                 let terms = row.iter().zip(impulses.as_flattened()).enumerate();
                 let others = terms.filter(|(column, _)| *column != 2 * place);
-                all[place][0] = others.map(|(_, (g, impulse))| g * impulse).sum::<f64>() / unit;
+                let by = others.map(|(_, (g, impulse))| g * impulse).sum::<f64>();
+                impulses[place][0] = (of_forces.get(2 * place).copied().unwrap_or(0.0) + by) / unit;
             }
         }
-        all
+    }
+
+    /// Sets the rates along the normals of guides, where nothing moves, to 0.
+    pub fn clear_rates_of_guides(&self, rates: &mut [f64]) {
+        if !self.guides.are_there() {
+            return;
+        }
+        for (place, &k) in self.contacts.iter().enumerate() {
+            if self.guides.has(k) {
+                rates[2 * place] = 0.0;
+            }
+        }
     }
 
     /// The impacts that these impulses are, and by how much they change the rates of coordinates.
@@ -112,11 +128,11 @@ impl Meeting {
         here: &ContactKinematics,
         impulses: &[[f64; 2]],
     ) -> (Vec<Impact>, Vec<f64>) {
-        let with_reactions = if self.guides.are_there() {
-            self.with_reactions(impulses)
-        } else {
-            Vec::new()
-        };
+        let mut with_reactions = Vec::new();
+        if self.guides.are_there() {
+            with_reactions.extend_from_slice(impulses);
+            self.write_reactions(&[], &mut with_reactions);
+        }
         let impulses = if with_reactions.is_empty() {
             impulses
         } else {

@@ -40,6 +40,31 @@ impl UnilateralState {
         (0..here.gaps.len()).map(rests).collect()
     }
 
+    /// Which contacts slip no faster than one that has `stopped`. What that one still slips is the error with which the instant of its stop is known, so they stop
+    /// there as well. They are contacts with one tangent.
+    pub fn stopping_with<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        stopped: &[bool],
+    ) -> Vec<bool> {
+        let here = self.kinematics(system, (t, q, v));
+        let slips = |k: &usize| {
+            let slides = matches!(self.modes()[*k], Mode::Slides(sign) if sign != 0.0);
+            slides && !self.has_two_tangents(*k)
+        };
+        let speed = |k: usize| here.rates[2 * k + 1].abs();
+        let stops = |k: usize| {
+            let rounding = here.rate_rounding(2 * k + 1);
+            let mut others = (0..stopped.len()).filter(|other| stopped[*other]);
+            others.any(|other| {
+                let is_like = self.is_turning(other) == self.is_turning(k);
+                is_like && !self.has_two_tangents(other) && speed(k) <= speed(other) + rounding
+            })
+        };
+        (0..stopped.len()).map(|k| slips(&k) && stops(k)).collect()
+    }
+
     /// Takes note of how fast what is closed slips: slips that are rounding of it are rest, and several that stop at one instant stop
     /// together.
     pub fn record_slips<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {

@@ -62,6 +62,8 @@ pub(super) struct ContactsOfStep<'a> {
     pub h: f64,
     /// The rates that there would be at its end if nothing touched.
     pub free: &'a [f64],
+    /// The impulses of the reactions of guides to forces alone, over the whole step and each times `G_nn` of its guide, with two numbers for each contact; nothing without guides.
+    pub loads: &'a [f64],
     /// The courses of their gaps without impulses; of what depends on another contact, that one's.
     pub courses: &'a [Course],
 }
@@ -302,6 +304,14 @@ impl ContactsOfStep<'_> {
             let by = row.iter().zip(impulses.as_flattened());
             rate + by.map(|(g, impulse)| g * impulse).sum::<f64>()
         }));
+        self.meeting.clear_rates_of_guides(after);
+    }
+
+    /// Adds the loads of guides in a part of the step to what rates would be at its end without impulses.
+    fn add_loads(&self, part: f64, b: &mut [f64]) {
+        for (b, load) in b.iter_mut().zip(self.loads) {
+            *b += part * load;
+        }
     }
 
     /// Rates changed by impulses.
@@ -373,6 +383,7 @@ impl ContactsOfStep<'_> {
             };
             b.extend([free[0] - approach.least, of_tangent]);
         }
+        self.add_loads(1.0, &mut b);
         self.write_resting(rests);
         let has_impulses = self.held(&b, (&self.meeting.before, 1.0), rests, takes_part, memory);
         memory.b = b;
@@ -405,7 +416,8 @@ impl ContactsOfStep<'_> {
             self.write_part(of_first, (&mut rests, impulses), was_closed, memory)?;
 
         let mut told = Told::default();
-        let of_impact = self.impact(&at_impact, &mut told)?;
+        let mut of_impact = self.impact(&at_impact, &mut told)?;
+        meeting.write_reactions(&[], &mut of_impact);
         let after_impact = self.after(&at_impact, &of_impact);
         // A contact that the impact made slip does not rest any more.
         let still = HELD * greatest(&after_impact);
@@ -460,6 +472,7 @@ impl ContactsOfStep<'_> {
             let in_middle = beyond_rounding(in_middle, self.courses[place].rounding);
             b[2 * place] += 2.0 / length * in_middle.max(0.0);
         }
+        self.add_loads(part, &mut b);
         if !self.held(&b, (before, part), rests, takes_part, memory) {
             return Err(self.unsettled());
         }
@@ -542,26 +555,32 @@ impl ContactsOfStep<'_> {
             let Some(place) = fastest else {
                 break;
             };
-            // The contacts that depend on it follow it, and are asked with it.
+            // The contacts that depend on it follow it, and are asked with it, and so are guides, which take part in whatever loads them.
             let end = (place + 1..count).find(|next| self.is_own(*next));
-            let own = 2 * place..2 * end.unwrap_or(count);
-            let g: Vec<f64> = (own.clone())
-                .flat_map(|i| &meeting.g[i * width..][own.clone()])
-                .copied()
+            let own = place..end.unwrap_or(count);
+            let is_asked =
+                |other: &usize| own.contains(other) || touching.is_guide(meeting.contacts[*other]);
+            let asked: Vec<usize> = (0..count).filter(is_asked).collect();
+            let directions = || asked.iter().flat_map(|place| [2 * place, 2 * place + 1]);
+            let contacts: Vec<usize> = asked.iter().map(|place| meeting.contacts[*place]).collect();
+            let g: Vec<f64> = directions()
+                .flat_map(|i| directions().map(move |j| meeting.g[i * width + j]))
                 .collect();
-            let contacts = &meeting.contacts[own.start / 2..own.end / 2];
-            let hit = (contacts, &g[..], &rates[own.clone()]);
+            let before: Vec<f64> = directions().map(|direction| rates[direction]).collect();
+            let hit = (&contacts[..], &g[..], &before[..]);
             let Ok(found) = touching.impulses((t, here), hit, told) else {
                 told.jammed.push(meeting.contacts[place]);
                 has_failed[place] = true;
                 continue;
             };
             for (row, rate) in rates.iter_mut().enumerate() {
-                let by = meeting.g[row * width..][own.clone()].iter();
+                let by = directions().map(|column| meeting.g[row * width + column]);
                 let by = by.zip(found.as_flattened());
                 *rate += by.map(|(g, impulse)| g * impulse).sum::<f64>();
             }
-            for (sum, found) in impulses[own.start / 2..].iter_mut().zip(found) {
+            meeting.clear_rates_of_guides(&mut rates);
+            for (place, found) in asked.iter().zip(found) {
+                let sum = &mut impulses[*place];
                 (sum[0], sum[1]) = (sum[0] + found[0], sum[1] + found[1]);
             }
         }
@@ -617,6 +636,7 @@ impl ContactsOfStep<'_> {
             if solved.is_err() || answer.residual > MOST_RESIDUAL {
                 return false;
             }
+            meeting.write_reactions(b, &mut answer.forces);
             if !rests.contains(&true) && !may_stop.contains(&true) {
                 return true;
             }
@@ -701,7 +721,8 @@ impl ContactsOfStep<'_> {
     fn is_used_up(&self, answer: &Answer, place: usize) -> bool {
         let k = self.meeting.contacts[place];
         let [_, at_rest] = self.here.friction(k);
-        let most = at_rest * answer.forces[self.carrier(place)][0];
+        let normal = answer.forces[self.carrier(place)][0];
+        let most = at_rest * self.touching.pressing(k, normal);
         let across = match self.touching.second(k) {
             Some(_) => answer.forces[place + 1][1],
             None => 0.0,
@@ -723,6 +744,9 @@ fn with_friction(unknowns: ContactUnknowns, coefficient: f64) -> ContactUnknowns
             friction: coefficient,
             known_normal,
             on,
+        },
+        ContactUnknowns::Guide { .. } => ContactUnknowns::Guide {
+            friction: coefficient,
         },
         other => other,
     }

@@ -111,7 +111,7 @@ impl UnilateralState {
         touching.clear();
         touching.extend(
             self.in_order()
-                .filter(|k| self.carrier(*k).is_none())
+                .filter(|k| self.carrier(*k).is_none() && !self.is_guide(*k))
                 .filter(|k| here.gaps[*k] <= NEAR * deepest || here.is_gap_closed(*k))
                 .filter(|k| here.is_within(*k, q)),
         );

@@ -77,6 +77,15 @@ impl UnilateralState {
         self.share_margins(here, reaction, at.t, margins)
     }
 
+    /// Whether no contact slips against friction while the equations leave its normal force undetermined.
+    pub fn friction_is_known<S: System>(&self, system: &S, at: At<'_, S>) -> bool {
+        let slips = |k: usize| {
+            self.has_friction[k] && matches!(self.modes[k], Mode::Slides(_) | Mode::SlidesAlong(_))
+        };
+        let margins = self.margins(system, at);
+        margins.is_ok_and(|of| (0..self.modes.len()).all(|k| !(slips(k) && of.shares[k])))
+    }
+
     /// Whether a contact that slips in two directions is braked, and so slow that `error`, that of the rate of each coordinate, decides its direction. The state is
     /// the one at which margins were last computed with `memory`. `faster` marks the contacts that have slipped faster since they began to slip, and is updated: a
     /// contact that has just begun to slip from rest is slow as well.

@@ -75,13 +75,13 @@ impl OpenStates {
         Ok((mode, forces))
     }
 
-    /// The same without an allocator, for few contacts.
+    /// Finds the states and the forces without an allocator, for few contacts.
     #[cfg(not(feature = "std"))]
     pub fn answer(&self, parts: &Parts<'_>) -> Result<(Mode, Each), Paradox> {
         self.by_enumeration(parts)
     }
 
-    /// The same question about some of the contacts.
+    /// This problem restricted to some of the contacts.
     #[cfg(feature = "std")]
     fn restricted(&self, block: &[usize]) -> OpenStates {
         let place = |k: usize| block.iter().position(|member| *member == k);

@@ -239,14 +239,21 @@ fn is_of_several(error: &StepError) -> bool {
     matches!(trouble, ContactTrouble::Jammed | ContactTrouble::Unsolved)
 }
 
-/// Which contacts rest: by their rates, because they have just stopped, or because they stick.
+/// Which contacts rest: by their rates, because they have just stopped, alone or with another one, or because they stick.
 pub(super) fn resting_or_stopped<S: System>(
     system: &S,
     touching: &UnilateralState,
     now: &Point<S::Vector>,
     (closed, stopped): (&[bool], &[bool]),
 ) -> Vec<bool> {
-    let mut resting = touching.resting(system, (now.t, &now.q, &now.v), closed);
+    let place = (now.t, &now.q, &now.v);
+    let mut resting = touching.resting(system, place, closed);
+    if stopped.contains(&true) {
+        let stopping = touching.stopping_with(system, place, stopped);
+        for (k, stops) in stopping.into_iter().enumerate() {
+            resting[k] |= stops && closed[k];
+        }
+    }
     for (k, resting) in resting.iter_mut().enumerate() {
         *resting |= stopped[k] || touching.modes()[k] == Mode::Sticks;
     }

@@ -17,7 +17,7 @@ pub enum Formulation {
     Stabilized,
     /// `U = V` and the accelerations with the multipliers eliminated, `M A = f + Gᵀ λ`, `G A = γ`.
     Index1,
-    /// The same, and each step ends with the projection onto the constraints, as in the runtime.
+    /// As before, and each step ends with the projection onto the constraints, as in the runtime.
     Projected,
 }
 

@@ -9,8 +9,8 @@ use lagrangian::Solution;
 use lagrangian::interpreted::InterpretedMachine;
 
 /// Blocks in a row, joined by rods, on guides or on unilateral contacts. The first is pushed by `F + c t`, uphill where the ground is a slope.
-fn blocks(frictions: &[&str], is_guided: bool) -> InterpretedMachine {
-    let all = 1..=frictions.len();
+fn blocks(coefficients: &[&str], is_guided: bool) -> InterpretedMachine {
+    let all = 1..=coefficients.len();
     let joined = |part: &dyn Fn(usize) -> String| all.clone().map(part).collect::<Vec<_>>();
     let coordinates = joined(&|i| {
         if is_guided {
@@ -27,11 +27,11 @@ fn blocks(frictions: &[&str], is_guided: bool) -> InterpretedMachine {
         };
         format!("b{i} {{ mass: m{i}, at: (x{i}, {height}) }}")
     });
-    let rods: Vec<String> = (2..=frictions.len())
+    let rods: Vec<String> = (2..=coefficients.len())
         .map(|i| format!("rod{i}: x{i} - x{} = 1", i - 1))
         .collect();
     let on_ground = joined(&|i| {
-        let friction = frictions[i - 1];
+        let friction = coefficients[i - 1];
         if is_guided {
             format!("s{i} {{ body: b{i}, on: ground, direction: (1, 0), {friction} }}")
         } else {
@@ -98,12 +98,12 @@ fn let_go_together(
 /// Two blocks of 1 kg and 2 kg hold μ₁ N₁ + μ₂ N₂ = 5 N + 4 N together, in either way of writing them, and slide with 3 N + 2 N.
 #[test]
 fn two_blocks_on_a_rod_hold_with_the_friction_of_both() {
-    let frictions = [
+    let coefficients = [
         "friction: 0.3, static_friction: 0.5",
         "friction: 0.1, static_friction: 0.2",
     ];
     for is_guided in [true, false] {
-        let pair = blocks(&frictions, is_guided);
+        let pair = blocks(&coefficients, is_guided);
         for push in [4.5, 6.0, 8.9, -8.9] {
             let held = run(&pair, &[("F", push)], &[], (1e-9, 2.0)).expect("it runs");
             assert!(held.events().is_empty(), "{push}: {:?}", events(&held));
@@ -148,12 +148,12 @@ fn blocks_with_equal_coefficients_begin_to_slide_together() {
 fn three_blocks_hold_together() {
     for is_guided in [true, false] {
         let row = |third: &str| {
-            let frictions = [
+            let coefficients = [
                 "friction: 0.3, static_friction: 0.5",
                 "friction: 0.1, static_friction: 0.2",
                 third,
             ];
-            blocks(&frictions, is_guided)
+            blocks(&coefficients, is_guided)
         };
         let rough = row("friction: 0.1, static_friction: 0.2");
         let_go_together(&rough, &[("c", 4.0)], (15.0 / 4.0, 8.0), 6.0);
@@ -165,12 +165,12 @@ fn three_blocks_hold_together() {
 /// Blocks on a slope rest where tan α is less than the friction of all by the weight of all, here 9/30, and slide down with 5/30.
 #[test]
 fn blocks_on_a_rod_rest_on_slopes() {
-    let frictions = [
+    let coefficients = [
         "friction: 0.3, static_friction: 0.5",
         "friction: 0.1, static_friction: 0.2",
     ];
     for is_guided in [true, false] {
-        let pair = blocks(&frictions, is_guided);
+        let pair = blocks(&coefficients, is_guided);
         for tangent in [0.17_f64, 0.25, 0.299] {
             let set = [("alpha", tangent.atan())];
             let rests = run(&pair, &set, &[], (1e-9, 2.0)).expect("it runs");
@@ -186,9 +186,9 @@ fn blocks_on_a_rod_rest_on_slopes() {
 /// A block that is stopped by friction rests with the other, and lets go again where both can hold no more.
 #[test]
 fn blocks_stop_and_rest_together() {
-    let frictions = ["friction: 0.3, static_friction: 0.5"; 2];
+    let coefficients = ["friction: 0.3, static_friction: 0.5"; 2];
     for is_guided in [true, false] {
-        let pair = blocks(&frictions, is_guided);
+        let pair = blocks(&coefficients, is_guided);
         let set = [("m2", 1.0), ("F", 3.0)];
         let start = [("x1", 1.0, 3.0), ("x2", 2.0, 3.0)];
         let run = run(&pair, &set, &start, (1e-10, 5.0)).expect("it runs");
@@ -299,7 +299,7 @@ fn a_box_lets_go_where_all_its_corners_can_hold_no_more() {
             assert_near(value(&run.end().q, "x"), -expected, 1e-7);
         }
     }
-    // The same as a point.
+    // The block as a point.
     let point = machine(
         "machine Point in plane {
             parameters { c: N/s = 4, mu: 1 = 0.3, mu0: 1 = 0.36 }

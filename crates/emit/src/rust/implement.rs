@@ -5,7 +5,7 @@ use super::Emitter;
 use super::types::{Group, Types};
 use crate::layout::{Layout, width};
 use crate::names::{Scope, flat};
-use lagrangian_program::quantity::{Extent, ItemKind, Needs};
+use lagrangian_program::quantity::{Extent, ItemKind};
 use lagrangian_program::{Fact, FrictionLayout, Reads, Role};
 use lagrangian_units::{Compliance, ImpactLaw, ImpactOrder, Painleve};
 
@@ -332,16 +332,16 @@ impl Emitter<'_> {
         }
     }
 
-    /// Writes a method for each quantity of this machine that requires no solution of equations.
+    /// Writes the method of each quantity of this machine that is one.
     fn rows_of_quantities(&mut self) {
         let sizes = self.program.sizes();
         let is_method = |role: &Role| {
-            let needs = role.row().needs;
-            needs != Needs::Request && needs.are_met(sizes) && !role.inverts()
+            let row = role.row();
+            row.method.is_some() && row.needs.are_met(sizes)
         };
         for role in Role::all().filter(is_method) {
             let row = role.row();
-            if row.extent.shape(sizes).is_none() || self.is_by_parts(role) {
+            if self.is_by_parts(role) {
                 continue;
             }
             let kind = match row.extent {

@@ -187,7 +187,7 @@ impl Reduced<'_> {
         }
     }
 
-    /// The frictions of a contact: the directions that slip together, and the index of their coefficient.
+    /// The friction of a contact: the directions that slip together, and the index of their coefficient.
     fn slipping(&self, k: usize) -> Vec<(Vec<usize>, usize)> {
         let mut all = Vec::new();
         let next = self.contacts.get(k + 1);

@@ -113,7 +113,7 @@ fn agrees_with_differences(name: &str, set: &[(&str, f64)], by: &[By<'_>], until
     agrees(&machine_with(name, set), name, by, until, h);
 }
 
-/// The same of any machine.
+/// Compares derivatives of any machine at the end of a run with differences of runs.
 fn agrees(machine: &InterpretedMachine, name: &str, by: &[By<'_>], until: f64, h: f64) {
     let signals = Signals::default();
     let run = across(machine, &signals, by, until, 1e-12);

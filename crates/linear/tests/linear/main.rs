@@ -10,7 +10,7 @@ use std::time::SystemTime;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Linearize, Machine, System};
-use lagrangian_linear::model::{Model, Observed, Request, about, along};
+use lagrangian_linear::model::{LinearModel, Observed, Request, about, along};
 use lagrangian_linear::response::response;
 use lagrangian_linear::search::{MOST_STEPS, Wanted};
 use lagrangian_linear::steady;
@@ -187,7 +187,7 @@ fn frequency_responses_are_those_of_the_textbook() {
         inputs: vec![0],
         outputs: vec![Observed::Coordinate(0), Observed::Acceleration(0)],
     };
-    let model: Model = about(&machine, (0.0, &[0.0], &[0.0]), &request).expect("a model");
+    let model: LinearModel = about(&machine, (0.0, &[0.0], &[0.0]), &request).expect("a model");
     for omega in [0.0, 1e-3, 1.0, 2.0_f64.sqrt(), 40.0, 1e6] {
         let s = Complex::new(0.0, omega);
         let exact = Complex::new(1.0, 0.0) / (s * s * 2.0 + s + 4.0);

@@ -314,7 +314,8 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let mut constraints = dynamics.constraints;
         for rolling in model.rolling() {
             let circle = &model.circles[rolling.circles.circle];
-            let [gap, slip] = on_surface(model, circle, rolling.circles.surface, &x);
+            let surface = rolling.circles.surface;
+            let [gap, slip] = on_surface(model, circle, surface, false, &x);
             constraints.extend([of_position(gap), of_rate(slip.value)]);
         }
         Literal {
@@ -710,6 +711,23 @@ fn carried<R: Scalar, const N: usize>(
             point(rest, rates, along)
         }
         (Space::Space, _) => rest,
+    }
+}
+
+/// How far along the line of centres the touching points are from the centre of the first circle or sphere and from that of the other.
+fn touching_point<R: Scalar>(
+    [small, large]: [Varied<R>; 2],
+    distance: Varied<R>,
+    (is_inside, yields): (bool, bool),
+) -> [Varied<R>; 2] {
+    match (is_inside, yields) {
+        (true, false) => [small, large],
+        (true, true) => [small, distance + small],
+        (false, false) => [-small, large],
+        (false, true) => {
+            let past = distance * large / (small + large);
+            [past - distance, past]
+        }
     }
 }
 

@@ -105,12 +105,6 @@ fn refuse_guides_beside_contacts(
         refusals.refuse(Code::NotSupported, first.span, message, help);
     }
     for contact in &model.contacts {
-        let law = contact.response.impact_law();
-        if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
-            let message = format!("`law: {}` does not support `sliding`", law.name());
-            let help = "Routh's path is that of one point, and a guide takes part in the impact: the laws `newton` and `poisson_glocker` support it";
-            refusals.refuse(Code::NotSupported, contact.span, message, help);
-        }
         if contact.response.painleve() == Painleve::Impact {
             let message = "`painleve: impact` does not support `sliding`";
             let help =

@@ -20,7 +20,7 @@ use super::refusal::refuse_large_contact;
 use super::shorter::shorter;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::identity;
-use lagrangian_spec::model::circles::{self, RelativeMotion};
+use lagrangian_spec::model::circles::{self, Meeting, RelativeMotion};
 use lagrangian_spec::model::{
     self, Circle, Compliance, ContactGeometry, ImpactLaw, ImpactOrder, Model, Painleve, Space,
     Surface, polygons, spheres,
@@ -124,10 +124,10 @@ impl<'d> Touch<'d> {
             }
             ContactGeometry::Circles(touching) => {
                 let circle = &model.circles[touching.circle];
-                Touch::of_round(model, coasting, circle, touching.surface)
+                Touch::of_round(model, coasting, (circle, touching.surface), contact)
             }
             ContactGeometry::Point { point, surface } => {
-                Touch::of_round(model, coasting, point, *surface)
+                Touch::of_round(model, coasting, (point, *surface), contact)
             }
             &ContactGeometry::Expressions { gap, slip, across } => Touch {
                 gap,
@@ -143,18 +143,23 @@ impl<'d> Touch<'d> {
     fn of_round(
         model: &Model<'d>,
         coasting: &mut Tangent<'d>,
-        round: &Circle<'d>,
-        surface: Surface,
+        (round, surface): (&Circle<'d>, Surface),
+        contact: &model::Contact<'d>,
     ) -> Touch<'d> {
+        // What yields is penetrated while it presses; rigid bodies touch at one place.
+        let meeting = match contact.response.compliance() {
+            Some(_) if contact.friction.is_some() => Meeting::Common,
+            _ => Meeting::Nearest,
+        };
         let (gap, slip, across) = match model.space {
             Space::Plane => {
                 let RelativeMotion { gap, slip } =
-                    circles::relative_motion(model, round, surface, coasting);
+                    circles::relative_motion(model, round, surface, meeting, coasting);
                 (gap, slip, None)
             }
             Space::Space => {
                 let spheres::RelativeMotion { gap, slip } =
-                    spheres::relative_motion(model, round, surface, coasting);
+                    spheres::relative_motion(model, round, surface, meeting, coasting);
                 (gap, slip[0], Some(slip[1]))
             }
         };

@@ -3,11 +3,41 @@
 use super::number::Number;
 use super::{Computed, Prover, Sum, Verdict, equal, first_difference, row};
 use crate::equations::literal::{Literal, State};
+use crate::quantities::{LiterallyAt, literal_values};
+use lagrangian_program::quantity::Needs;
 use lagrangian_program::{Role, Shape};
 use lagrangian_symbolic::Expr;
 
 impl<'d, R: Number> Prover<'_, 'd, R> {
-    /// Compares energies, `M`, `h`, `Q` and `f`.
+    /// Compares the quantities whose numbers the literal equations give one by one.
+    pub(super) fn check_values(
+        &mut self,
+        state: &State<R>,
+        literal: &Literal<R>,
+    ) -> Result<(), Verdict> {
+        let machine = self.parts.machine;
+        let values = literal_values(&LiterallyAt {
+            machine,
+            state,
+            literal,
+        });
+        for (role, expected) in values {
+            let function = self.parts.program.function(role);
+            if function.is_some_and(|function| function.results.len() != expected.len()) {
+                return Err(self.disagreement_at(role, 0));
+            }
+            if function.is_none() && role.row().needs == Needs::Request {
+                continue;
+            }
+            let found = self.call(role, state, expected.len())?;
+            for (index, (found, expected)) in found.into_iter().zip(expected).enumerate() {
+                self.compare(role, index, found, expected)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Compares `M`, `h`, `Q` and `f`.
     pub(super) fn check_dynamics(
         &mut self,
         at: &State<R>,
@@ -16,25 +46,6 @@ impl<'d, R: Number> Prover<'_, 'd, R> {
         computed: &Computed<R>,
     ) -> Result<(), Verdict> {
         let n = w.len();
-        for (role, expected) in [
-            (Role::KineticEnergy, literal.kinetic_energy),
-            (Role::PotentialEnergy, literal.potential_energy),
-            (Role::Dissipation, literal.dissipation),
-        ] {
-            let found = self.call(role, at, 1)?[0];
-            self.compare(role, 0, found, expected)?;
-        }
-        if self
-            .parts
-            .machine
-            .model
-            .energies_of_states()
-            .next()
-            .is_some()
-        {
-            let found = self.call(Role::StateEnergy, at, 1)?[0];
-            self.compare(Role::StateEnergy, 0, found, literal.state_energy)?;
-        }
         let mut inertia = Sum::products(w, &computed.bias);
         for (i, &w) in w.iter().enumerate() {
             let along = row(&computed.mass_matrix, n, i).zip(&at.a);
@@ -100,7 +111,7 @@ impl<'d, R: Number> Prover<'_, 'd, R> {
         self.disagreement_at(Role::MassMatrix, 0)
     }
 
-    /// Compares the power of drives and dampers by the balance of energy, which holds for any
+    /// Compares the power of drives by the balance of energy, which holds for any
     /// accelerations: `d(T + V + E)/dt = P − R + v·(M a − f)`. If constraints are rheonomic, their
     /// power is in `P` and the last term is absent.
     pub(super) fn check_power(
@@ -111,15 +122,8 @@ impl<'d, R: Number> Prover<'_, 'd, R> {
     ) -> Result<(), Verdict> {
         let model = self.parts.machine.model;
         let n = at.q.len();
-        let damped = model.dissipated().next().is_some();
-        let lost = if damped {
-            self.parts.machine.damping(at, &at.v)
-        } else {
-            R::ZERO
-        };
-        let lost = lost + literal.power_loss;
-        let found = self.call(Role::DissipationRate, at, 1)?[0];
-        self.compare(Role::DissipationRate, 0, found, lost)?;
+        // This is compared with the literal equations before.
+        let lost = self.call(Role::DissipationRate, at, 1)?[0];
         let power = self.call(Role::WorkRate, at, 1)?[0];
         let with_constraints = Sum::of([power, -literal.energy_rate, -lost]);
         // The lengths of quaternions are excluded from the balance.
@@ -159,16 +163,7 @@ impl<'d, R: Number> Prover<'_, 'd, R> {
         if m != self.parts.program.constraints.len() {
             return Err(self.disagreement_at(Role::ConstraintRates, 0));
         }
-        let positions = self.call(Role::ConstraintPositions, at, m)?;
-        let rates = self.call(Role::ConstraintRates, at, m)?;
         for (k, constraint) in literal.constraints.iter().enumerate() {
-            self.compare(
-                Role::ConstraintPositions,
-                k,
-                positions[k],
-                constraint.position,
-            )?;
-            self.compare(Role::ConstraintRates, k, rates[k], constraint.rate)?;
             // Positions must not depend on rates.
             self.compare(Role::ConstraintPositions, k, constraint.by_rates, R::ZERO)?;
             let row = &computed.rows[k * n..][..n];

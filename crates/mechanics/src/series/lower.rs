@@ -76,20 +76,12 @@ fn in_form<'d>(model: &Model<'d>, form: Form<'d>) -> Result<Series, NoSeries> {
     for &row in &residual.rows {
         residuals.push(lowering.expression(row)?);
     }
-    let Lowering { rows, levels, .. } = lowering;
-    let series = Series {
-        depends: vec![Vec::new(); rows.len()],
-        exact: vec![false; rows.len()],
-        rows,
-        levels,
-        residuals,
-        coordinates: model.coordinates.len(),
-        parameters: model.parameters.len(),
-        inputs: model.inputs.len(),
-        rates_are_ahead: false,
-        is_symmetric: true,
-    };
-    series.pruned().ordered_by_time().with_dependences()
+    let counts = [
+        model.coordinates.len(),
+        model.parameters.len(),
+        model.inputs.len(),
+    ];
+    Series::of_rows(lowering.rows, residuals, counts)
 }
 
 /// The series with contacts in one form of the equations.

@@ -43,7 +43,7 @@ fn sections_that_are_not_derived_yet_are_named() {
 }
 
 #[test]
-fn guides_beside_contacts_are_refused_in_space_and_with_paths_of_one_point() {
+fn guides_beside_contacts_are_refused_in_space_and_with_impacts_without_collision() {
     let in_space = refused(
         "machine Bead in space {
             parameters { l: m = 1 }
@@ -58,9 +58,8 @@ fn guides_beside_contacts_are_refused_in_space_and_with_paths_of_one_point() {
     };
     assert!(message.starts_with("in space `sliding`"), "{message}");
     for (law, named) in [
-        ("law: poisson", "`law: poisson`"),
-        ("law: stronge", "`law: stronge`"),
         ("friction: 0.1, painleve: impact", "`painleve: impact`"),
+        ("law: stronge, painleve: impact", "`painleve: impact`"),
     ] {
         let refused = refused(&format!(
             "machine Block in plane {{

@@ -40,7 +40,7 @@ fn machines_with_contacts_have_proved_series() {
 /// Which unknowns there are follows from what contacts do, and a slip makes their matrix unsymmetric.
 #[test]
 fn contacts_decide_about_the_unknowns() {
-    use ContactState::{Open, Slips, Sticks};
+    use ContactState::{Open, Slips, Sticks, SticksAlongNormal, SticksAlongTangent};
     let block = of("rocking_block").expect("a series");
     for (states, unknowns, is_symmetric) in [
         ([Open, Open], 3, true),
@@ -48,6 +48,8 @@ fn contacts_decide_about_the_unknowns() {
         ([Open, Slips(1)], 4, false),
         ([Sticks, Slips(-1)], 6, false),
         ([Slips(1), Slips(1)], 5, false),
+        ([Sticks, SticksAlongNormal], 6, true),
+        ([SticksAlongTangent, Sticks], 6, true),
     ] {
         let series = block.with(&states).expect("smooth contacts");
         assert_eq!(

@@ -104,7 +104,7 @@ fn an_output_that_lacks_its_value_is_stopped() {
                 ..
             } = machine;
             let outputs: Vec<Role> = (0..model.outputs.len()).map(Role::Output).collect();
-            let program = Program::restricted(program, &outputs);
+            let program = Program::with_only(program, &outputs);
             let stopped = mutants(&program, 1).filter(|mutant| {
                 let is_stopped = Proved::new(mutant.program.clone(), model, equations).is_err();
                 let is_equal = || same_values(model, &program, &mutant.program);
@@ -422,7 +422,7 @@ fn parts_of_contacts_are_those_of_the_proved_program() {
         let program: &Program = &pile.program;
         let parts = ContactParts::of(program).expect("21 contacts have parts");
         assert!(parts.agree_with(program));
-        let of_contacts = program.restricted(&QUANTITIES);
+        let of_contacts = program.with_only(&QUANTITIES);
         let mut tried = 0;
         for Mutant {
             change,

@@ -10,11 +10,13 @@
 //! sticks    d²g/dt² = 0          dγₜ/dt = 0
 //! ```
 //!
+//! Where contacts that stick share their load in several ways, some of these conditions follow from the others. The motion is that with any independent ones, and without the forces of the rest.
+//!
 //! A slip makes the matrix of the unknowns unsymmetric.
 
 use lagrangian_symbolic::Rational;
 
-use super::{Level, Row, RowId, Series, is_inverse};
+use super::{Row, RowId, Series, is_inverse};
 
 /// What a contact does during a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,6 +27,10 @@ pub enum ContactState {
     Slips(i8),
     /// It is closed, and does not slip.
     Sticks,
+    /// The same, where its slip vanishes if those of other contacts do: without a force along its tangent.
+    SticksAlongNormal,
+    /// The same, where its gap stays closed if those of other contacts do: without a force along its normal.
+    SticksAlongTangent,
 }
 
 /// The unknowns of a contact among those of a [`ContactSeries`].
@@ -57,13 +63,13 @@ pub struct ContactSeries {
     pub inputs: usize,
 }
 
-/// What becomes of an unknown.
+/// What an unknown is in a set of closed contacts.
 #[derive(Clone, Copy)]
 enum Unknown {
-    /// It is 0.
+    /// It is 0, and removed.
     Vanishes,
-    /// It is the unknown with this index.
-    Is(u32),
+    /// It is kept, with this index.
+    Kept(u32),
     /// It is this row, or with `true` its opposite.
     Follows(RowId, bool),
 }
@@ -73,7 +79,7 @@ impl ContactSeries {
     /// the normal first.
     pub fn with(&self, states: &[ContactState]) -> Option<Series> {
         let known = self.coordinates + self.constraints;
-        let mut unknowns: Vec<Unknown> = (0..known as u32).map(Unknown::Is).collect();
+        let mut unknowns: Vec<Unknown> = (0..known as u32).map(Unknown::Kept).collect();
         unknowns.resize(self.residuals.len(), Unknown::Vanishes);
         let mut is_kept = vec![false; self.residuals.len()];
         is_kept[..known].fill(true);
@@ -83,9 +89,14 @@ impl ContactSeries {
                 continue;
             }
             let contact = contact.as_ref()?;
-            is_kept[contact.normal as usize] = true;
+            // The force along the normal of what is carried is that of what carries it.
+            if *state != ContactState::SticksAlongTangent && !contact.is_carried {
+                is_kept[contact.normal as usize] = true;
+            }
             match (*state, contact.tangent) {
-                (ContactState::Sticks, Some((tangent, _))) => is_kept[tangent as usize] = true,
+                (ContactState::Sticks | ContactState::SticksAlongTangent, Some((tangent, _))) => {
+                    is_kept[tangent as usize] = true;
+                }
                 (ContactState::Slips(0), Some(_)) => return None,
                 (ContactState::Slips(sign), Some((tangent, friction))) => {
                     is_symmetric = false;
@@ -96,7 +107,7 @@ impl ContactSeries {
         }
         let mut kept = Vec::new();
         for (place, _) in is_kept.iter().enumerate().filter(|(_, is)| **is) {
-            unknowns[place] = Unknown::Is(kept.len() as u32);
+            unknowns[place] = Unknown::Kept(kept.len() as u32);
             kept.push(place);
         }
         let mut narrowed = Narrowed::default();
@@ -108,48 +119,35 @@ impl ContactSeries {
         for place in kept {
             residuals.push(narrowed.places[self.residuals[place].index()]?);
         }
-        let Narrowed { rows, levels, .. } = narrowed;
-        let series = Series {
-            depends: vec![Vec::new(); rows.len()],
-            exact: vec![false; rows.len()],
-            rows,
-            levels,
-            residuals,
-            coordinates: self.coordinates,
-            parameters: self.parameters,
-            inputs: self.inputs,
-            rates_are_ahead: false,
-            is_symmetric,
-        };
-        let series = (series.pruned().ordered_by_time().with_dependences()).ok()?;
+        let counts = [self.coordinates, self.parameters, self.inputs];
+        let mut series = Series::of_rows(narrowed.rows, residuals, counts).ok()?;
+        series.is_symmetric = is_symmetric;
         let is_small = || series.blocks().iter().all(|block| is_inverse(block.len()));
         (is_symmetric || is_small()).then_some(series)
     }
 }
 
-/// Rows without the unknowns that there are not.
+/// The rows from which the vanishing unknowns have been removed.
 #[derive(Default)]
 struct Narrowed {
     rows: Vec<Row>,
-    levels: Vec<Level>,
-    /// For each row that there was its place now; `None` where it is 0.
+    /// For each row of the [`ContactSeries`] so far its place among these; `None` where it is 0.
     places: Vec<Option<RowId>>,
 }
 
 impl Narrowed {
     fn push(&mut self, row: Row) -> RowId {
-        self.levels.push(row.level(&self.levels));
         self.rows.push(row);
         RowId(self.rows.len() as u32 - 1)
     }
 
-    /// The place of a row, if it is not 0; nothing if the row cannot be without the unknowns that there are not.
+    /// The place of a row, if it is not 0; `None` if the vanishing unknowns cannot be removed from it.
     #[expect(clippy::option_option, reason = "a failure, or a row that is 0")]
     fn row(&mut self, index: usize, row: &Row, unknowns: &[Unknown]) -> Option<Option<RowId>> {
         if let Row::Acceleration(unknown) = row {
             return Some(match unknowns[*unknown as usize] {
                 Unknown::Vanishes => None,
-                Unknown::Is(unknown) => Some(self.push(Row::Acceleration(unknown))),
+                Unknown::Kept(unknown) => Some(self.push(Row::Acceleration(unknown))),
                 Unknown::Follows(other, is_opposite) => match *self.places.get(other.index())? {
                     Some(other) if is_opposite => {
                         let minus = self.push(Row::Number(Rational::MINUS_ONE));

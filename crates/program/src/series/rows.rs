@@ -4,8 +4,37 @@ use super::{Level, NoSeries, Row, RowId, Series, Stream};
 use lagrangian_symbolic::sorting::sort_by_key;
 
 impl Series {
+    /// The series with these rows, operands before their users, and these of them as residuals, of a machine with so many coordinates, parameters and inputs; without unused rows.
+    /// The matrix of its unknowns is taken to be symmetric.
+    ///
+    /// # Errors
+    /// If accelerations do not occur linearly.
+    pub fn of_rows(
+        rows: Vec<Row>,
+        residuals: Vec<RowId>,
+        [coordinates, parameters, inputs]: [usize; 3],
+    ) -> Result<Series, NoSeries> {
+        let mut levels = Vec::with_capacity(rows.len());
+        for row in &rows {
+            levels.push(row.level(&levels));
+        }
+        let series = Series {
+            depends: Vec::new(),
+            exact: Vec::new(),
+            rows,
+            levels,
+            residuals,
+            coordinates,
+            parameters,
+            inputs,
+            rates_are_ahead: false,
+            is_symmetric: true,
+        };
+        series.pruned().ordered_by_time().with_dependences()
+    }
+
     /// The series without unused rows.
-    pub fn pruned(self) -> Series {
+    fn pruned(self) -> Series {
         let mut needed = vec![false; self.rows.len()];
         let mut open: Vec<RowId> = self.residuals.clone();
         while let Some(row) = open.pop() {
@@ -39,7 +68,7 @@ impl Series {
     ///
     /// # Errors
     /// If accelerations do not occur linearly.
-    pub fn with_dependences(mut self) -> Result<Series, NoSeries> {
+    fn with_dependences(mut self) -> Result<Series, NoSeries> {
         self.rates_are_ahead = self.rows.iter().any(|row| match row {
             Row::First(of) => self.levels[of.index()] == Level::Rate,
             _ => false,
@@ -88,7 +117,7 @@ impl Series {
     }
 
     /// The series with the terms of each sum in the order in which they become known, so that the latest is added last.
-    pub fn ordered_by_time(mut self) -> Series {
+    fn ordered_by_time(mut self) -> Series {
         let mut ready = vec![0_u32; self.rows.len()];
         for index in 0..self.rows.len() {
             if let Row::Sum(terms) = &mut self.rows[index] {

@@ -181,7 +181,7 @@ const PENDULUM_AND_WALL: &str = "machine PendulumAndWall in plane {
     contacts { wall { gap: L - dot(bob.at, (cos(b), sin(b))), restitution: e } }
 }";
 
-/// The same with the bob on a rod, a constraint whose multiplier loads the rail.
+/// The machine with the bob on a rod, a constraint whose multiplier loads the rail.
 const HELD: &str = "machine Held in plane {
     parameters {
         M: kg = 2, m: kg = 1, l: m = 1, mu: 1 = 0.2, e: 1 = 0.5, g: m/s^2 = 9.81, L: m = 0.5, b: rad = 0.3, v0: m/s = 0,

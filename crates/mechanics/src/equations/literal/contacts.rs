@@ -7,7 +7,7 @@ use super::vector::{difference, dot, ground, quotient, scaled};
 use super::{
     Lagrange, LiteralSliding, LiteralUnilateral, Moving, SmoothContact, State, Varied, carried,
     centre_and_angular_velocity, here, of_position, of_rate, point_and_angular_velocity,
-    turned_left,
+    touching_point, turned_left,
 };
 use super::{in_space, vector};
 use lagrangian_scalar::{Dual, Scalar};
@@ -129,14 +129,16 @@ impl<'d> Lagrange<'_, 'd> {
         of_corner: impl FnOnce(&Corner<'d>) -> Option<Touch<R>>,
     ) -> Option<Touch<R>> {
         let model = self.model;
+        let yields = contact.response.compliance().is_some();
         let of_round = |round: &Circle<'d>, surface: Surface| {
             let (gap, slip, across) = match model.space {
                 Space::Plane => {
-                    let [gap, slip] = on_surface(model, round, surface, x);
+                    let [gap, slip] = on_surface(model, round, surface, yields, x);
                     (gap, slip.value, None)
                 }
                 Space::Space => {
-                    let (gap, [slip, across]) = in_space::gap_and_slip(model, round, surface, x);
+                    let (gap, [slip, across]) =
+                        in_space::gap_and_slip(model, round, surface, yields, x);
                     (gap, slip, Some(across))
                 }
             };
@@ -398,17 +400,23 @@ fn extreme<S: Scalar>(all: &[S], pick: fn(S, S) -> S) -> S {
     extreme
 }
 
-/// The distance of a circle from touching a surface, and the slip velocity of the touching points.
+/// The distance of a circle from touching a surface, and the slip velocity of the touching points; if they yield, of the points of
+/// both that are at one place.
 pub(super) fn on_surface<R: Scalar>(
     model: &Model<'_>,
     circle: &Circle<'_>,
     surface: Surface,
+    yields: bool,
     x: &Values<'_, Varied<R>>,
 ) -> [Moving<R>; 2] {
     match surface {
-        Surface::Inside(other) => on_circle(model, circle, &model.circles[other], true, x),
-        Surface::Outside(other) => on_circle(model, circle, &model.circles[other], false, x),
-        Surface::Along(pose) => on_line(model, circle, pose, x),
+        Surface::Inside(other) => {
+            on_circle(model, [circle, &model.circles[other]], (true, yields), x)
+        }
+        Surface::Outside(other) => {
+            on_circle(model, [circle, &model.circles[other]], (false, yields), x)
+        }
+        Surface::Along(pose) => on_line(model, circle, (pose, yields), x),
     }
 }
 
@@ -416,9 +424,8 @@ pub(super) fn on_surface<R: Scalar>(
 /// of the touching points, along the direction from the other's centre turned left.
 fn on_circle<R: Scalar>(
     model: &Model<'_>,
-    first: &Circle<'_>,
-    other: &Circle<'_>,
-    is_inside: bool,
+    [first, other]: [&Circle<'_>; 2],
+    (is_inside, yields): (bool, bool),
     x: &Values<'_, Varied<R>>,
 ) -> [Moving<R>; 2] {
     let (centre, omega) = centre_and_angular_velocity(model, first, x);
@@ -431,11 +438,14 @@ fn on_circle<R: Scalar>(
     } else {
         distance - small - large
     };
-    // The touching point: the first circle's at c ± r e, the other's at R e.
+    // The touching point: the first circle's at c ± r e, the other's at R e. At one place, `arm` from the first centre is `past` from the other.
     let e = quotient(vector::value(line), distance.value);
-    let arm = if is_inside { small.value } else { -small.value };
+    let radii = [small, large].map(|r| r.value);
+    // Two points have no place between them.
+    let yields = yields && !(first.radius.is_zero() && other.radius.is_zero());
+    let [arm, past] = touching_point(radii, distance.value, (is_inside, yields));
     let rate = dot(turned_left(e), vector::rate(line));
-    let slip = rate + arm * omega - large.value * other_omega;
+    let slip = rate + arm * omega - past * other_omega;
     [gap, Dual::constant(slip)]
 }
 
@@ -443,7 +453,7 @@ fn on_circle<R: Scalar>(
 fn on_line<R: Scalar>(
     model: &Model<'_>,
     circle: &Circle<'_>,
-    pose: PoseId,
+    (pose, yields): (PoseId, bool),
     x: &Values<'_, Varied<R>>,
 ) -> [Moving<R>; 2] {
     let frame = &model.poses[pose.index()];
@@ -453,5 +463,11 @@ fn on_line<R: Scalar>(
     let radius = x.at(circle.radius);
     let gap = dot(across, line) - radius;
     let rate = dot(vector::value(along), vector::rate(line));
-    [gap, Dual::constant(rate + radius.value * omega)]
+    let nearest = rate + radius.value * omega;
+    if !yields {
+        return [gap, Dual::constant(nearest)];
+    }
+    // What turns with the frame at the circle's nearest point, the gap above the line, moves backwards there.
+    let carried = -(gap.value * x.rate(frame.angle));
+    [gap, Dual::constant(nearest - carried)]
 }

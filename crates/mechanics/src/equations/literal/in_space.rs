@@ -12,20 +12,26 @@ use lagrangian_scalar::Scalar;
 use lagrangian_spec::model::{Circle, FrameOrBody, Model, PoseId, Rotation, Surface};
 
 use super::vector::{difference, dot, ground, point, quotient, rate, scaled, value};
-use super::{Moving, Values, Varied};
+use super::{Moving, Values, Varied, touching_point};
 
 type Point<R> = [Moving<R>; 3];
 
-/// The gap between a sphere and a surface, and the slip velocity of the touching points along both tangents.
+/// The gap between a sphere and a surface, and the slip velocity of the touching points along both tangents; if they yield, of the
+/// points of both that are at one place.
 pub(super) fn gap_and_slip<R: Scalar>(
     model: &Model<'_>,
     sphere: &Circle<'_>,
     surface: Surface,
+    yields: bool,
     x: &Values<'_, Varied<R>>,
 ) -> (Moving<R>, [Varied<R>; 2]) {
     match surface {
-        Surface::Inside(other) => on_sphere(model, sphere, &model.circles[other], true, x),
-        Surface::Outside(other) => on_sphere(model, sphere, &model.circles[other], false, x),
+        Surface::Inside(other) => {
+            on_sphere(model, [sphere, &model.circles[other]], (true, yields), x)
+        }
+        Surface::Outside(other) => {
+            on_sphere(model, [sphere, &model.circles[other]], (false, yields), x)
+        }
         Surface::Along(pose) => on_plane(model, sphere, pose, x),
     }
 }
@@ -101,9 +107,8 @@ fn on_plane<R: Scalar>(
 
 fn on_sphere<R: Scalar>(
     model: &Model<'_>,
-    first: &Circle<'_>,
-    other: &Circle<'_>,
-    is_inside: bool,
+    [first, other]: [&Circle<'_>; 2],
+    (is_inside, yields): (bool, bool),
     x: &Values<'_, Varied<R>>,
 ) -> (Moving<R>, [Varied<R>; 2]) {
     let (own, axes) = centre(model, first, x);
@@ -117,9 +122,12 @@ fn on_sphere<R: Scalar>(
         distance - small - large
     };
     let e = quotient(value(line), distance.value);
-    let arm = if is_inside { small.value } else { -small.value };
+    let radii = [small, large].map(|r| r.value);
+    // Two points have no place between them.
+    let yields = yields && !(first.radius.is_zero() && other.radius.is_zero());
+    let [arm, past] = touching_point(radii, distance.value, (is_inside, yields));
     let at = point_velocity(own, axes, scaled(arm, e));
-    let past = point_velocity(theirs, other_axes, scaled(large.value, e));
+    let past = point_velocity(theirs, other_axes, scaled(past, e));
     let slip = difference(at, past);
     let one = Varied::<R>::ONE;
     let n = if is_inside { scaled(-one, e) } else { e };

@@ -1,4 +1,4 @@
-//! Restricts a program to some of its functions.
+//! Programs of some functions of a program.
 
 use super::{Function, Op, Program, Role, Shape, Source, Value};
 use lagrangian_units::Stages;
@@ -9,19 +9,19 @@ impl Program {
     ///
     /// A mass matrix of n coordinates has n² prepared values; accelerations that are eliminated
     /// along a chain read a few for each link.
-    pub fn restricted(&self, roles: &[Role]) -> Program {
+    pub fn with_only(&self, roles: &[Role]) -> Program {
         let mut functions: Vec<Function> = self.functions.clone();
         functions.retain(|function| roles.contains(&function.role));
         let mut choices = self.choices.clone();
         choices.retain(|choice| roles.contains(&choice.role()));
-        let mut restricted = Program {
+        let mut selected = Program {
             functions,
             choices,
             stages: Stages::default(),
             ..self.clone()
         };
-        restricted.keep_read_slots();
-        restricted
+        selected.keep_read_slots();
+        selected
     }
 
     /// Drops the prepared values that no function reads.
