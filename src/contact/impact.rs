@@ -27,7 +27,7 @@ const COUPLED: f64 = 1e-12;
 const KNOWN_HEIGHT: f64 = 16.0;
 
 /// Whether impulses of the other one of two contacts change a rate or a reaction of the first, with the products of their images.
-fn acts_on((g, width): (&[f64], usize), [one, other]: [usize; 2]) -> bool {
+pub(super) fn acts_on((g, width): (&[f64], usize), [one, other]: [usize; 2]) -> bool {
     let pairs = [0, 1].map(|i| {
         [0, 1].map(|j| {
             let (i, j) = (2 * one + i, 2 * other + j);

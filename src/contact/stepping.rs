@@ -21,7 +21,7 @@ mod penetration;
 use std::vec::Vec;
 
 use super::drives::{ActingContact, Drives, DrivesMemory};
-use super::impact::Meeting;
+use super::impact::{Meeting, acts_on};
 use super::kinematics::ContactKinematics;
 use super::problem::SATURATED;
 use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
@@ -30,9 +30,6 @@ use crate::{StepError, System, Vector};
 use approach::Course;
 use laws::{ContactsOfStep, ImpulsesOfStep, LawsMemory};
 use penetration::PenetrationMemory;
-
-/// Contacts that share less than this of their inertia do not act on each other.
-const COUPLED: f64 = 1e-12;
 
 /// What contacts did in a step.
 #[derive(Debug, Default)]
@@ -672,16 +669,6 @@ fn write_groups(
 
 /// Whether two contacts of a meeting share inertia. Nothing acts along the normal of a guide, but what acts along others loads it.
 fn is_coupled(meeting: &Meeting, [one, other]: [usize; 2]) -> bool {
-    acts_on(meeting, [one, other]) || meeting.guides.are_there() && acts_on(meeting, [other, one])
-}
-
-/// Whether impulses of the other one of two contacts of a meeting change a rate or a reaction of the first.
-fn acts_on(meeting: &Meeting, [one, other]: [usize; 2]) -> bool {
-    let width = meeting.directions.len();
-    (0..4).any(|pair| {
-        let (row, column) = (2 * one + pair / 2, 2 * other + pair % 2);
-        let entry = meeting.g[row * width + column];
-        let sizes = meeting.g[row * width + row] * meeting.g[column * width + column];
-        entry * entry > COUPLED * COUPLED * sizes
-    })
+    let products = (meeting.g.as_slice(), meeting.directions.len());
+    acts_on(products, [one, other]) || meeting.guides.are_there() && acts_on(products, [other, one])
 }

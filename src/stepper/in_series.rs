@@ -12,6 +12,7 @@ use crate::taylor::{
     ClosedContacts, GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect,
     size_of_rate,
 };
+use crate::tolerance::Tolerance;
 use crate::{InputLaw, StepError, System, Vector};
 
 /// A step by series of a machine with unilateral contacts is at most so many times as long as the one before it.
@@ -263,8 +264,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         Ok(if is_off { f64::INFINITY } else { 0.0 })
     }
 
-    /// Whether the series at the end of a step of length `h` has the accelerations with which all contacts stay closed and stick, also those without which it was derived since
-    /// they follow from the others at the beginning of the step.
+    /// Whether the series at the end of a step of length `h` has the accelerations under all closed contacts. It was derived without the conditions that follow from others
+    /// at the beginning of the step, and these may have become independent since then.
     fn keeps_dependent_contacts(&mut self, h: f64) -> Result<bool, StepError> {
         let Self {
             model,
@@ -282,14 +283,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let (mut by_series, known) = (now.v.zeros_like(), &mut stage.1);
         taylor.accelerations(true, &mut by_series);
         model.accelerations(now.t, &now.q, &now.v, known, work)?;
-        let absolute = tolerance.absolute.as_slice();
-        let pairs = known.as_slice().iter().zip(by_series.as_slice());
-        let coordinates = pairs.enumerate().map(|(i, (known, found))| {
-            let size = size_of_rates([before, now], i);
-            [size, *known, known - found, absolute[i]]
-        });
-        let roundings = [tolerance.relative, ROUNDING_UNITS * f64::EPSILON];
-        Ok(defect(h, coordinates, roundings) <= GREATEST_DEFECT)
+        let rounding = ROUNDING_UNITS * f64::EPSILON;
+        let found = defect_between(
+            [before, now],
+            h,
+            (&*tolerance, rounding),
+            [known, &by_series],
+        );
+        Ok(found <= GREATEST_DEFECT)
     }
 
     /// Whether the motion is not its series at the end of a step of length `h`, which was expanded there.
@@ -312,13 +313,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         };
         let accelerations = &k[method.tableau.stages];
         let defect_to = |other: &S::Vector, rounding: f64| {
-            let absolute = tolerance.absolute.as_slice();
-            let pairs = accelerations.as_slice().iter().zip(other.as_slice());
-            let coordinates = pairs.enumerate().map(|(i, (one, other))| {
-                let size = size_of_rates([before, now], i);
-                [size, *one, one - other, absolute[i]]
-            });
-            defect(h, coordinates, [tolerance.relative, rounding])
+            let pair = [accelerations, other];
+            defect_between([before, now], h, (&*tolerance, rounding), pair)
         };
         crate::taylor::accelerations(taylor.of_step(), h, &mut stage.0);
         let found = defect_to(&stage.0, ROUNDING_UNITS * f64::EPSILON);
@@ -364,6 +360,21 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         });
         (system, closed)
     }
+}
+
+/// The [`defect`] of the first accelerations against the second ones, both at the end of a step of length `h` with these ends.
+fn defect_between<V: Vector>(
+    ends: [&Point<V>; 2],
+    h: f64,
+    (tolerance, rounding): (&Tolerance<V>, f64),
+    [one, other]: [&V; 2],
+) -> f64 {
+    let absolute = tolerance.absolute.as_slice();
+    let pairs = one.as_slice().iter().zip(other.as_slice());
+    let coordinates = pairs
+        .enumerate()
+        .map(|(i, (one, other))| [size_of_rates(ends, i), *one, one - other, absolute[i]]);
+    defect(h, coordinates, [tolerance.relative, rounding])
 }
 
 /// The size of the rate of a coordinate in a step with these ends.

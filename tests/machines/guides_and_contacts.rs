@@ -861,11 +861,8 @@ fn random_linkages_never_gain_energy() {
     assert!(impacts > 50, "{impacts}");
 }
 
-/// P. Painlevé's rod, whose tip slides in a guide: pushed to the side to which it leans it has no motion where `1 + 3 cos θ (cos θ − μ sin θ) < 0`, that is for μ above 4/3 at
-/// `tan θ = 2`, and several where it turns so fast that it would lift.
-#[test]
-fn where_friction_leaves_no_motion_or_several_the_run_ends() {
-    let rod = "machine Rod in plane {
+/// P. Painlevé's rod, whose tip slides in a guide.
+pub(super) const PAINLEVES_ROD: &str = "machine Rod in plane {
         parameters { m: kg = 1, l: m = 1, mu: 1 = 0.5, g: m/s^2 = 9.81, far_away: m = 100, w0: rad/s = 0 }
         coordinates { x: m, theta: rad = 1.1071487177940904, der(x): m/s = -1, der(theta): rad/s = w0 }
         frames { tip = ground.shift(x, 0), rod = tip.turn(theta) }
@@ -874,8 +871,13 @@ fn where_friction_leaves_no_motion_or_several_the_run_ends() {
         sliding { rail { body: rod, on: ground, direction: (1, 0), friction: mu } }
         contacts { far { gap: far_away + x, restitution: 0 } }
     }";
+
+/// The rod, pushed to the side to which it leans, has no motion where `1 + 3 cos θ (cos θ − μ sin θ) < 0`, that is for μ above 4/3 at
+/// `tan θ = 2`, and several where it turns so fast that it would lift.
+#[test]
+fn where_friction_leaves_no_motion_or_several_the_run_ends() {
     for (mu, w0, moves) in [(1.3, 0.0, true), (1.35, 0.0, false), (1.35, 6.0, false)] {
-        let result = run_to(&machine(rod, &[("mu", mu), ("w0", w0)]), 1e-3);
+        let result = run_to(&machine(PAINLEVES_ROD, &[("mu", mu), ("w0", w0)]), 1e-3);
         match result {
             Ok(_) if moves => {}
             Err(Error::Contact {

@@ -5,8 +5,8 @@ use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{ContactEventKind, Machine, Method, Simulation, Solution, System};
 
 use super::guides_and_contacts::{
-    BLOCK_AND_STOP, LINKAGE, OBLIQUE, PENDULUM_AND_WALL, assert_near, events, machine, of_library,
-    q, v,
+    BLOCK_AND_STOP, LINKAGE, OBLIQUE, PAINLEVES_ROD, PENDULUM_AND_WALL, assert_near, events,
+    machine, of_library, q, v,
 };
 
 fn run_by(
@@ -412,17 +412,8 @@ fn blocks_that_pile_up_on_an_inclined_rail_are_handed_over_to_time_steps() {
 /// vanish with the step, and lose energy. (Runs by events end there.)
 #[test]
 fn a_guide_in_painleves_paradox_is_stopped_by_an_impulse() {
-    let rod = "machine Rod in plane {
-        parameters { m: kg = 1, l: m = 1, mu: 1 = 1.35, g: m/s^2 = 9.81, far_away: m = 100, w0: rad/s = 0 }
-        coordinates { x: m, theta: rad = 1.1071487177940904, der(x): m/s = -1, der(theta): rad/s = w0 }
-        frames { tip = ground.shift(x, 0), rod = tip.turn(theta) }
-        bodies { rod { mass: m, inertia: m*l^2/12, frame: rod, at: rod.point(l/2, 0) } }
-        gravity (0, -g);
-        sliding { rail { body: rod, on: ground, direction: (1, 0), friction: mu } }
-        contacts { far { gap: far_away + x, restitution: 0 } }
-    }";
     for w0 in [0.0, 6.0] {
-        let machine = machine(rod, &[("w0", w0)]);
+        let machine = machine(PAINLEVES_ROD, &[("mu", 1.35), ("w0", w0)]);
         for h in [1e-5, 1e-6] {
             let run = stepped(&machine, h, 100.0 * h);
             // M = [1, −½ sin θ; −½ sin θ, 1/3]: an impulse along the rail that stops the tip turns the rod by 3/2 sin θ of that.
